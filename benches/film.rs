@@ -2,7 +2,7 @@
 //! warps, once solved by the warp and once played from its recording.
 //!
 //! `cargo bench --no-default-features --bench film`. If the environment variable `FILM_CHOLMOD` is
-//! set, the run also times CHOLMOD's back-substitution with the same matrix
+//! set, the run also times CHOLMOD's back-substitution with the matrix of each warp
 //! (`benches/film_cholmod.sh`).
 //!
 //! - `solved`: a frame computed by the warp (right-hand sides, solve, vertex positions)

@@ -31,7 +31,7 @@ fn lobes(count: u32, lobes: f64) -> Result<BoundaryCurve> {
     )?)?)
 }
 
-/// Times matching for several numbers of outline points and of samples.
+/// Times matching for several numbers of outline points, and of samples taken along each outline.
 fn matching(criterion: &mut Criterion) -> Result<()> {
     let mut group = criterion.benchmark_group("match_curves");
     group.sample_size(20);

@@ -20,7 +20,7 @@ use morphospace::transition::TransitionStyle;
 /// Duration of one swing of the knob, from the first star to the second and back, in seconds.
 const PERIOD_SECS: f64 = 6.0;
 
-/// Ends of the slider's bar in the window, in pixels from the centre.
+/// Ends of the slider's bar, in pixels from the centre of the window; y points up.
 const BAR: [Vec2; 2] = [Vec2::new(-200.0, -340.0), Vec2::new(200.0, -340.0)];
 
 /// The knob of the slider; `t` is its position on the bar, from 0 to 1.
@@ -42,8 +42,8 @@ fn main() -> AppExit {
         .run()
 }
 
-/// A star with twelve tips around an open hub. `inner` is the radius of the notches, `outer` that
-/// of the tips. The tips are rotated by `twist` radians.
+/// A star with twelve tips and a hole in the middle. The notches have the distance `inner` from the
+/// centre, the tips the distance `outer`. The tips are rotated by `twist` radians.
 fn star(inner: f64, outer: f64, twist: f64) -> Result<TriangleMesh, MeshError> {
     let corner = |i: u32| {
         let is_tip = i % 2 == 1;

@@ -51,8 +51,8 @@ fn main() -> AppExit {
         .run()
 }
 
-/// A star with twelve tips around an open hub. `inner` is the radius of the notches, `outer` that
-/// of the tips. The tips are rotated by `twist` radians.
+/// A star with twelve tips and a hole in the middle. The notches have the distance `inner` from the
+/// centre, the tips the distance `outer`. The tips are rotated by `twist` radians.
 fn star(inner: f64, outer: f64, twist: f64) -> Result<TriangleMesh, MeshError> {
     let corner = |i: u32| {
         let is_tip = i % 2 == 1;

@@ -1,10 +1,10 @@
 //! Signed distance fields: grids, masks, distance transforms and contours.
 //!
-//! A field is positive inside a design and negative outside. Its unit is **the cell of its grid**,
-//! so the meaning of the parameters ε and τ of a [`FieldBlend`](crate::content::FieldBlend) depends
-//! on the grid. A field is computed in one of two ways: as the exact distance to the edges of
-//! polygons ([`DistanceField::from_regions`]), or by the distance transform of a binary image in
-//! one of four metrics ([`distance_transform`]).
+//! A field is positive inside a design and negative outside. Its unit is **the cell of its grid**.
+//! The lengths `epsilon` and `threshold` of a [`FieldBlend`](crate::content::FieldBlend) are in
+//! cells, too, so the result of a blend depends on the grid. A field is computed in one of two
+//! ways: as the exact distance to the edges of polygons ([`DistanceField::from_regions`]), or by
+//! the distance transform of a binary image in one of four metrics ([`distance_transform`]).
 //!
 //! In this module, row 0 of a grid, mask or field is its lowest row.
 

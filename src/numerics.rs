@@ -87,7 +87,8 @@ impl SymmetricMatrix {
 /// systems, blocks make factoring several times faster and each solve somewhat slower (heuristic).
 const SUPERNODAL_FROM: usize = 200_000;
 
-/// Returns the kind of factorisation for a system with this many unknowns.
+/// Returns the kind of factorisation for a system with this many unknowns: supernodal (in dense
+/// blocks) or simplicial (column by column).
 const fn in_blocks(unknowns: usize) -> SupernodalThreshold {
     if unknowns >= SUPERNODAL_FROM {
         SupernodalThreshold::FORCE_SUPERNODAL
@@ -175,7 +176,8 @@ impl Cholesky {
         if matrix.size() < BACKGROUND_FROM {
             return Ok(Self::factor(matrix));
         }
-        // The thread owns a copy, because on a cancel it outlives this call.
+        // The thread owns a copy of the matrix, because after a cancel the thread outlives this
+        // call.
         let matrix = matrix.clone();
         run_cancellable(progress, move || Self::factor(&matrix))
     }

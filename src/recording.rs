@@ -81,7 +81,7 @@ struct RecordingData {
     /// Intervals in ascending order of t, covering [0, 1] without gaps.
     intervals: Vec<RecordingInterval>,
     /// Largest measured distance between a vertex in the recording and the same vertex in the warp,
-    /// as a fraction of the diameter of all moving positions at both ends.
+    /// as a fraction of the diameter of the bounding box of all moving vertices at t = 0 and t = 1.
     error: f64,
     /// Number of times that the warp was evaluated.
     evaluation_count: usize,
@@ -109,8 +109,8 @@ impl Recording {
     }
 
     /// Returns the largest measured distance between a vertex in the recording and the same vertex
-    /// in the warp, including rounding, as a fraction of the diameter of all moving positions at
-    /// both ends.
+    /// in the warp, including rounding, as a fraction of the diameter of the bounding box of all
+    /// moving vertices at t = 0 and t = 1.
     #[must_use]
     pub fn error(&self) -> f64 {
         self.0.error

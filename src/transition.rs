@@ -1,9 +1,14 @@
-//! Transitions: a warp and a content, built from two designs, and the frames between them.
+//! Transitions between two designs, and the frames of a transition at any t.
 //!
-//! Everything that can fail fails in [`Transition::build`]; a [`Frame`] then moves to any t without
-//! allocating. A frame holds only the placement of the vertices and the t at which contents are
-//! mixed. The stage evaluates frames on the GPU; export and tests evaluate them on the CPU through
-//! [`Frame::figure`]. Both thus share one definition of a frame and can be compared.
+//! A transition consists of a warp, which moves points, and a content: solid shapes, distance
+//! fields or pictures. Everything that can fail fails in [`Transition::build`]; a [`Frame`] then
+//! moves to any t without allocating. A frame holds only the placement of the vertices and the t at
+//! which the contents of both designs are mixed. The stage, a Bevy plugin, evaluates frames on the
+//! GPU; export and tests evaluate them on the CPU through [`Frame::figure`]. Both thus share one
+//! definition of a frame and can be compared.
+//!
+//! A *piece* is a connected part of the match of two designs. Usually it is a part of the source
+//! matched with a part of the target, or an unmatched part. A split part has several pieces.
 //!
 //! - `options`, `spec`: the inputs of a transition; `common_frame`: placing designs in one frame
 //! - `build`: from a specification to a transition, through `solids` (rigid parts),

@@ -1,7 +1,8 @@
 //! Growth of the program's time and memory with the size n of its input.
 //!
-//! For growing numbers of holes, pieces, nested rings, pieces of self-crossing stars, and bars, the
-//! time grows at most as n² log n, and the memory stays below 1 GiB.
+//! n is the number of holes, of separate polygons, of nested rings, of pieces into which a star
+//! cuts itself, or a fifth of the number of bars. The time grows at most as n² log n, and the
+//! memory stays below 1 GiB.
 //! `cargo test --release --test asymptotics` tests all families of inputs; without `--release` only
 //! the quick ones.
 
@@ -18,7 +19,7 @@ use morphospace::DVec2;
 struct RunCost {
     /// Processor time, which hardly depends on other processes.
     cpu_seconds: f64,
-    /// Maximum resident memory so far.
+    /// Maximum resident memory of the process since its start.
     peak_mebibytes: f64,
 }
 
@@ -56,8 +57,8 @@ fn cost_so_far(process: u32) -> Option<RunCost> {
         .lines()
         .find_map(|line| line.strip_prefix("VmHWM:"))?;
     let kibibytes: f64 = peak.trim().strip_suffix(" kB")?.parse().ok()?;
-    // Fields are counted after the program name, which is in parentheses and may contain spaces.
-    // Fields 11 and 12 are the user and system time in ticks of 1/100 s.
+    // The program name, in parentheses, may contain spaces, so only the fields after it are split.
+    // Counted from 0, fields 11 and 12 of these are the user and system time in ticks of 1/100 s.
     let stat = read("stat")?;
     let fields: Vec<&str> = stat.rsplit(')').next()?.split_whitespace().collect();
     let ticks = |field: usize| fields.get(field)?.parse::<f64>().ok();
@@ -73,8 +74,8 @@ const SIZES: [u32; 4] = [10, 20, 40, 80];
 /// Factor by which the growth of the time may exceed that of n² log n (tolerance: timing noise).
 const SLACK: f64 = 5.0;
 
-/// Minimum time, in seconds, relative to which growth is measured. It replaces shorter measured
-/// times (tolerance: those are mostly start-up of the program).
+/// Minimum time, in seconds, relative to which growth is measured; shorter times count as this one
+/// (tolerance: shorter times mostly consist of the start of the program).
 const MIN_SECONDS: f64 = 0.25;
 
 /// Asserts that time and memory for a transition from `design(n)` to a square grow slowly with n.

@@ -212,8 +212,8 @@ fn type_names_are_used_once() {
     );
 }
 
-/// For entries of the same folder that use each other in a cycle: lists the uses on that cycle. An
-/// entry is a file or a subfolder with all its files.
+/// Lists the uses between entries of one folder that lie on a cycle of such uses. An entry is a
+/// file, or a subfolder with all its files.
 fn folder_cycles(uses: &Uses<'_>) -> Vec<String> {
     let mut graphs: BTreeMap<PathBuf, NeighbourGraph> = BTreeMap::new();
     for (from, used) in uses {

@@ -2,10 +2,10 @@
 //! building every kind of transition, the search for a method, and measuring. Also tests that
 //! builds that would take very long are refused.
 //!
-//! The program's target for both delays is half a second. The bound here is five times as large,
-//! since the tests run with little optimisation. Work that exceeds the bound is repeated: a busy
-//! machine delays one attempt, but a stage that does not check for cancellation delays every
-//! attempt.
+//! The target of the program is half a second, both for the delay until the first report and for
+//! the delay until cancelled work ends. The bound here is five times as large, since the tests run
+//! with little optimisation. Work that exceeds the bound is repeated: a busy machine delays one
+//! attempt, but a stage that does not check for cancellation delays every attempt.
 
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,5 +1,6 @@
-//! Transitions by rigid parts between the capital letters of the bundled font. Their meshes are
-//! valid, their areas at t = 0 and t = 1 are those of the letters, and counters stay open.
+//! Tests of transitions by rigid parts between the capital letters of the bundled font. Their
+//! meshes are valid, their areas at t = 0 and t = 1 are those of the letters, and the hole
+//! (counter) of a letter stays open if the other letter also has one.
 //!
 //! `cargo test --release --no-default-features --test capitals -- --include-ignored` tests all 650
 //! ordered pairs.

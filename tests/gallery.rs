@@ -1,5 +1,5 @@
-//! The bundled gallery projects open, draw something at every t, behave as their descriptions say,
-//! and are recorded in few solves.
+//! Tests of the bundled gallery projects: they open, draw something at every t, behave as their
+//! descriptions say, and their warps are solved at few values of t to record a film.
 
 use morphospace::geometry::DVec2;
 use morphospace::project::{LoadedProject, gallery};
@@ -151,7 +151,7 @@ fn films_of_rigid_parts_are_recorded_in_few_solves() {
             let max_solves = match entry.name.as_str() {
                 // The fern's spiral turns three times, which takes more solves.
                 "fern" => 32,
-                // The last letter does not move until t = ½, which also takes more solves.
+                // The T of the word NIGHT appears only after t = ½, which also takes more solves.
                 "day-to-night" => 32,
                 _ => 16,
             };

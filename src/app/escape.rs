@@ -1,5 +1,5 @@
-//! Handles the intents of Esc, which closes or cancels the first of all things that are open or
-//! running, and of full screen.
+//! Handles the intents of Esc and of full screen. Each Esc closes or cancels one thing that is open
+//! or running, in a fixed order.
 
 use crate::app::analysis::film_measures::StageMeasures;
 use crate::app::analysis::method_search::MethodSearch;
@@ -33,9 +33,9 @@ pub fn window_mode(
 /// Questions and modes that handle Esc before anything else.
 #[derive(SystemParam)]
 pub struct EscapeBlockers<'w> {
-    /// Questions, which Esc answers.
+    /// Questions to the user; while one is open, Esc answers it.
     questions: OpenQuestions<'w>,
-    /// The talk, which Esc ends.
+    /// The talk; while one is in progress, Esc ends it.
     presentation: Res<'w, Presentation>,
 }
 
@@ -84,7 +84,7 @@ pub fn handle_escape(
         if preferences.help {
             preferences.help = false;
         } else if preferences.panels && !views.is_any_open() && invitation.close() {
-            // The invitation has been closed by the condition.
+            // The condition above has already closed the invitation.
         } else if preferences.panels && work.session.visible_work().is_some() {
             work.session.cancel();
         } else if preferences.panels && work.search.visible_progress().is_some() {
@@ -100,7 +100,7 @@ pub fn handle_escape(
         } else if views.map.is_shown {
             views.map.is_shown = false;
         } else if std::mem::take(&mut views.comparison.is_shown) {
-            // The comparison has been closed by the condition.
+            // The condition above has already closed the comparison.
         } else if !preferences.panels {
             preferences.panels = true;
         } else if let Ok(mut window) = window.single_mut()

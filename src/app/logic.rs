@@ -135,10 +135,6 @@ fn init_resources(app: &mut App) {
 
 /// Systems that act on intents, in such an order that each sees the results of those that it
 /// depends on: a project is opened before it is played.
-#[expect(
-    clippy::too_many_lines,
-    reason = "one list; longer names wrap its lines"
-)]
 fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     (
         // Before all readers of intents, so that closing the window takes effect in the same frame,
@@ -163,32 +159,9 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
             file_preview::follow,
         )
             .chain(),
-        (
-            opening::open,
-            // After `open`, which needs to know whether the invitation is still shown: it never
-            // adds a dropped design to the project that plays next to the invitation.
-            invitation::apply,
-            opening::edit,
-            actions::apply,
-            film_measures::apply,
-            method_search::apply,
-            suggestions::apply,
-            opening::save,
-            opening::poll,
-            refresh::refresh,
-        )
-            .chain(),
-        (
-            stage_recording::follow,
-            film_measures::follow,
-            suggestions::follow,
-            comparison::apply,
-            comparison::follow,
-            (map_actions::apply, update::follow, saved_blends::export).chain(),
-        )
-            .chain(),
-        // Advance t before intents start or move it: otherwise the time since the last frame, in
-        // which nothing moved, would be played at once.
+        (project_systems(), analysis_systems()).chain(),
+        // Advance t before intents start or move it. Otherwise a film that starts now would at once
+        // advance by the time since the last frame.
         (player::advance, presenter::begin, player::apply).chain(),
         (stage_sync::select_segment, presenter::hide_pointer).chain(),
         (
@@ -204,6 +177,38 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
         // After every system that changes the project or marks it as saved.
         (autosave::follow, recent_files::follow).chain(),
         notices::apply,
+    )
+        .chain()
+}
+
+/// Systems that open, change and save the project.
+fn project_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
+    (
+        opening::open,
+        // After `open`, which needs to know whether the invitation is still shown: it never
+        // adds a dropped design to the project that plays next to the invitation.
+        invitation::apply,
+        opening::edit,
+        actions::apply,
+        film_measures::apply,
+        method_search::apply,
+        suggestions::apply,
+        opening::save,
+        opening::poll,
+        refresh::refresh,
+    )
+        .chain()
+}
+
+/// Systems that follow the transition on the stage: recording, measures, comparison and map.
+fn analysis_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
+    (
+        stage_recording::follow,
+        film_measures::follow,
+        suggestions::follow,
+        comparison::apply,
+        comparison::follow,
+        (map_actions::apply, update::follow, saved_blends::export).chain(),
     )
         .chain()
 }

@@ -112,8 +112,8 @@ impl ScratchFolder {
     }
 }
 
-/// Checks that a folder can be written to, and creates it if missing; called before a long export,
-/// so that it does not fail at its end.
+/// Checks that a folder can be written to, and creates it if missing. It is called before a long
+/// export, which would otherwise fail only at its end.
 ///
 /// # Errors
 /// The folder cannot be created or written to.

@@ -1,5 +1,5 @@
 //! Chooses how often the window redraws: continuously while something moves, at intervals while
-//! work is in progress, and not at all otherwise, to save battery during a talk.
+//! work is in progress, and otherwise not at all. This saves battery, for example during a talk.
 //!
 //! Input and other system events wake the window at any rate.
 
@@ -51,8 +51,8 @@ const PROGRESS_INTERVALS: [Duration; 4] = [
 /// most.
 const CLOCK_INTERVAL: Duration = Duration::from_millis(500);
 
-/// Redraw interval while nothing changes. Finite, because winit without a new wake-up time keeps
-/// the last one, which has passed, and wakes continuously.
+/// Redraw interval while nothing changes. It is finite, so that winit always gets a new wake-up
+/// time. Without one, winit keeps the previous time, which has passed, and wakes continuously.
 const REST_INTERVAL: Duration = Duration::from_secs(3600);
 
 /// Number of frames to draw after an event until all its effects are on screen: panels are drawn

@@ -1,4 +1,4 @@
-//! Keeps the window within the screen it opens on: sets its first size, its minimum size, and its
+//! Keeps the window within the screen it opens on: sets its initial size, its minimum size, and its
 //! scale factor.
 //!
 //! The panels need [`MIN_SIZE`] points. On a screen that has fewer, such as 1280 × 720 pixels at

@@ -5,7 +5,7 @@ use bevy::prelude::{Resource, Vec2};
 /// Area of the window that the panels leave free for the stage, in logical pixels.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct StageArea {
-    /// Top left corner, from that of the window, y down.
+    /// Top left corner, relative to that of the window, y down.
     pub corner: Vec2,
     /// Width and height.
     pub size: Vec2,

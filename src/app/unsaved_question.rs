@@ -33,7 +33,7 @@ pub struct UnsavedQuestion {
 struct PendingIntent {
     intent: Intent,
     kind: UnsavedKind,
-    /// Whether the user answered "save" or "wait": the intent is sent again after the save or
+    /// Whether the user answered “save” or “wait”. The intent is then sent again after the save or
     /// export.
     is_answered: bool,
     text: String,
@@ -50,8 +50,8 @@ impl UnsavedQuestion {
         Some(&pending.text)
     }
 
-    /// Kind of work that the waiting intent would lose; also after the user's answer, while the
-    /// intent waits for the save or export.
+    /// Kind of work that the waiting intent would lose; `None` if no intent waits. It remains the
+    /// same after the user's answer, while the intent waits for the save or export.
     #[must_use]
     pub fn kind(&self) -> Option<UnsavedKind> {
         self.pending.as_ref().map(|pending| pending.kind)
@@ -139,7 +139,8 @@ pub fn answer(
                         // Saving may open a dialog and take long; the intent waits for the result.
                         (UnsavedKind::Changes, UnsavedAnswer::Save) => next.push(Intent::Save),
                         (UnsavedKind::Changes, _) => {
-                            // Otherwise the intent, when sent again, would raise the same question.
+                            // Without this, the intent would raise the same question when it is
+                            // sent again.
                             session.mark_saved();
                             next.extend(question.take_if_resolved(UnsavedKind::Changes));
                         }

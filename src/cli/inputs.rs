@@ -93,7 +93,7 @@ impl InputArgs {
     ) -> Result<(), CliError> {
         let start = Instant::now();
         let loaded = self.load(method, progress)?;
-        // The time for placing the designs in one frame is part of the build time.
+        // Aligning the designs in common coordinates counts as part of the build time.
         let import_time = start.elapsed();
         let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
         for mut segment in loaded.segments() {

@@ -53,8 +53,8 @@ pub(super) struct MethodArgs {
 impl MethodArgs {
     /// Builds the transition of a project of two designs, or of one segment.
     ///
-    /// With `--method auto`, builds a transition with each method and stores the best method in the
-    /// project.
+    /// With `--method auto`, builds and rates a transition with each method that
+    /// [`build_best_method`] tries, and stores the best of these methods in the project.
     pub fn build(
         &self,
         loaded: &mut LoadedProject,
@@ -100,7 +100,8 @@ impl MethodArgs {
         Ok(sequence.closed(loaded.project.ends_where_it_starts()))
     }
 
-    /// Returns whether `--method auto` is given: the method is chosen by rating the films.
+    /// Returns whether `--method auto` is given, with which the method is chosen by rating the
+    /// resulting films.
     pub fn is_auto(&self) -> bool {
         self.placing.is_auto()
     }
@@ -128,8 +129,8 @@ impl MethodArgs {
     }
 }
 
-/// Rates all methods for each segment separately, and returns the method that is best for most
-/// segments. Of equally frequent methods, returns the one that occurs first.
+/// Chooses the best method for each segment separately with [`build_best_method`], and returns the
+/// method chosen most often. Of equally frequent methods, returns the one that occurs first.
 fn best_for_most(
     loaded: &LoadedProject,
     progress: &dyn Progress,

@@ -407,7 +407,8 @@ fn write_frames(
         ));
     }
     write_film(&camera, &rendered, &target, progress).map_err(|error| match error {
-        // These flags do not fit the output type. All other errors are failures of the work.
+        // These two errors mean that the flags do not fit the output type. All other errors mean
+        // that the export failed.
         ExportError::GifRate(_) | ExportError::Mp4Transparent => CliError::usage(error),
         error => CliError::failed(error),
     })

@@ -32,7 +32,7 @@ pub(super) enum ValueError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct BackgroundColour(pub Option<Rgb>);
 
-/// Parses an option value by its key; `--help` lists the keys with their sentences.
+/// Parses an option value by its key; `--help` lists the keys, each with its help sentence.
 pub(super) fn one_of<T: Choice + Send + Sync>() -> impl TypedValueParser<Value = T> {
     let values = T::CHOICES.iter().map(|choice| {
         let name = choice.name();

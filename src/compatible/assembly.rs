@@ -23,7 +23,8 @@ impl MeshAssembly {
         faces: impl Iterator<Item = [u32; 3]>,
     ) {
         let offset = self.points[0].len() as u32;
-        // Vertices after the shared ones are appended to those that are already present.
+        // The first vertices of the appended mesh exist already. The others get indices after all
+        // present vertices.
         let new_index = |v: u32| match shared.get(v as usize) {
             Some(&existing) => existing,
             None => offset + v - shared.len() as u32,

@@ -29,10 +29,10 @@ pub struct CompatibleFamily {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FamilyError {
-    /// Fewer than two designs were given. The field is the number given.
+    /// Fewer than two designs were given. The field is the number of designs given.
     #[error("at least two designs are needed, not {0}")]
     TooFew(usize),
-    /// A design is not compatible with the first one.
+    /// A design is not compatible with the first design.
     #[error("design {} is not compatible with the first: {error}", design + 1)]
     Incompatible {
         /// Index of the design that is not compatible.
@@ -40,8 +40,7 @@ pub enum FamilyError {
         /// Reason, in which "source" means the first design.
         error: CompatibleError,
     },
-    /// One of two designs has parts or holes that the other lacks, so some points have no
-    /// counterpart.
+    /// Two designs do not have the same parts and holes, so some points have no counterpart.
     #[error("design {} does not have the same parts and holes as design {}", design + 1, of + 1)]
     PartsDiffer {
         /// Index of the design that differs.
@@ -49,8 +48,8 @@ pub enum FamilyError {
         /// Index of the design with which it is compared and which has other parts or holes.
         of: usize,
     },
-    /// With the matched points of all designs added to it, a design's outline is not a valid
-    /// boundary.
+    /// A design's outline is not a valid boundary after the points that correspond to those of the
+    /// other designs were inserted.
     #[error("design {}: {error}", design + 1)]
     Outline {
         /// Index of the design with the invalid outline.
@@ -63,7 +62,7 @@ pub enum FamilyError {
         "no triangulation without folds was found for all designs; make them more alike, or change the matches"
     )]
     NoCommonTriangulation,
-    /// No pair of trusses has a common triangulation of its panels that is valid in all trusses.
+    /// No triangulation of the panels was found that is valid in all trusses.
     #[error(
         "no triangulation of the panels is valid in all trusses; add bars, or make them more alike"
     )]
@@ -149,8 +148,8 @@ impl CompatibleFamily {
     /// valid in all trusses. Bars that lie in no panel become two-point elements.
     ///
     /// # Errors
-    /// [`FamilyError`] names the first truss that is incompatible with the first one, or reports
-    /// that no triangulation is valid in all trusses or that the work was cancelled.
+    /// [`FamilyError`] names a truss that is incompatible with truss 0, or reports that no
+    /// triangulation is valid in all trusses or that the work was cancelled.
     pub fn from_trusses(trusses: &[&Truss], progress: &dyn Progress) -> Result<Self, FamilyError> {
         let embeddings: Vec<_> = trusses.iter().map(|t| t.nodes().to_vec()).collect();
         let mut family: Option<Self> = None;

@@ -91,7 +91,7 @@ impl CompatibleMesh {
 fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<FrameCell>> {
     let mut parts = Vec::new();
     // Voids are the cells outside all parts: first the one inside the frame, then one inside each
-    // hole, whose ring is run backwards.
+    // hole. The void of a hole runs along the hole's ring backwards.
     let mut voids = vec![FrameCell(vec![(0, false)])];
     let mut outers = Vec::new();
     for piece in pieces {
@@ -101,7 +101,8 @@ fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<
         if outer.kind != RingKind::Matched {
             continue;
         }
-        // A cut would join a hole with the outside of its part. Here these are separate cells.
+        // A cut would join a hole with the outside of its part. The cells of the frame need them
+        // separate, so a match with cuts is refused.
         if !piece.cuts.is_empty() {
             return None;
         }

@@ -18,7 +18,7 @@ pub struct CompatibleMesh {
     pub(super) faces: Arc<[[u32; 3]]>,
     pub(super) source: Vec<DVec2>,
     pub(super) target: Vec<DVec2>,
-    /// Bars that lie in no face, as two-point elements of the energy.
+    /// Bars that lie in no face. In the energy of a warp, each is an element with two points.
     pub(super) elements: Vec<BarElement>,
     pub(super) connectivity: Connectivity,
 }

@@ -20,8 +20,8 @@ pub struct OutlineMeshError {
 }
 
 impl OutlineMeshError {
-    /// Prefix of the message that names the piece; empty if the match has a single piece or the
-    /// work was cancelled.
+    /// Returns the beginning of the error message, such as "piece 2 of 3: ". It is empty if the
+    /// match has a single piece or if the work was cancelled.
     fn place(&self) -> String {
         match self.error {
             PieceMeshError::Cancelled(_) => String::new(),

@@ -20,9 +20,9 @@
 //!    and is dropped. Any other removed bar becomes a two-point element.
 //!
 //! Guaranteed: exchanging the designs gives the same triangles; every node belongs to a face or a
-//! two-point element. Not guaranteed: that a triangulation is found where one needs extra points
-//! inside a panel; that a part of the truss that lies inside a panel, without a bar to it, moves
-//! with the panel.
+//! two-point element. Not guaranteed: that a triangulation is found for a panel that has one only
+//! with extra points inside; that a part of the truss that lies inside a panel, without a bar to
+//! it, moves with the panel.
 
 mod bar_conflicts;
 mod blocks;

@@ -143,8 +143,8 @@ impl FieldBlend {
         (1.0 - t) * self.curve(source) + t * self.curve(target)
     }
 
-    /// Returns L(τ), the scale function at the threshold. The shape is filled where F is at least
-    /// L(τ).
+    /// Returns L(τ), the scale function at the threshold. The shape is filled where the blend
+    /// [`Self::value`] is at least L(τ).
     #[must_use]
     pub fn level(&self) -> f64 {
         self.curve(self.threshold)

@@ -48,8 +48,8 @@ pub struct PaintedFields {
 
 impl FieldContent {
     /// Creates the content from a pair of fields for the whole shape and, if the designs are
-    /// painted, the fields of their paint layers. `is_carried` tells whether a warp carries the
-    /// fields along.
+    /// painted, the fields of their paint layers. If `is_carried`, a warp carries the fields along;
+    /// otherwise they do not move.
     #[must_use]
     pub fn new(whole: FieldPair, painted: Option<PaintedFields>, is_carried: bool) -> Self {
         Self {
@@ -207,8 +207,8 @@ impl PaintedFields {
         grid: &Grid,
         blend: FieldBlend,
     ) -> Result<Self, FieldBlendError> {
-        // A negative threshold thickens the shape. The distance is lowered by it, so that the
-        // missing layer stays empty.
+        // A negative threshold would fill a field whose distance is only slightly negative. The
+        // threshold is therefore added to the distance, so that the missing layer stays empty.
         let outside = MISSING_DISTANCE + blend.threshold.min(0.0);
         let missing = Arc::new(DistanceField::uniform(*grid, outside));
         let pair = |ends: &[Option<Arc<DistanceField>>; 2]| {

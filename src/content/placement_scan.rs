@@ -96,8 +96,8 @@ impl PatchEdge {
         }
     }
 
-    /// Returns the columns of row `y` to the left of the edge, as an interval; empty if its start
-    /// exceeds its end.
+    /// Returns the interval of the columns of row `y` that lie to the left of the edge. If there
+    /// are none, the start of the interval exceeds its end.
     fn columns_left_of(&self, y: f64) -> [f64; 2] {
         // A sample (x, y) is to the left of the edge if along.x (y - begin.y) - along.y (x -
         // begin.x) >= 0.
@@ -180,8 +180,8 @@ fn faces_by_band(faces: &[[u32; 3]], places: &[DVec2], rows: usize) -> Vec<Vec<u
         if !is_finite || high + 1.0 < 0.0 || low - 1.0 > rows as f64 {
             continue;
         }
-        // This includes one row more than needed on either side; the exact test follows when rows
-        // are filled.
+        // The bands cover one row more than the face on either side. The exact test follows when
+        // rows are filled.
         let last = ((high + 1.0) as usize / BAND).min(bands.len() - 1);
         for band in &mut bands[(low - 1.0).max(0.0) as usize / BAND..=last] {
             band.push(k as u32);
@@ -243,8 +243,8 @@ fn next_above(x: f64) -> usize {
     }
 }
 
-/// Returns the columns of row `y` that lie inside all three edges, as an interval; empty if its
-/// start exceeds its end.
+/// Returns the interval of the columns of row `y` that lie inside all three edges. If there are
+/// none, the start of the interval exceeds its end.
 fn covered_columns(edges: &[PatchEdge; 3], y: f64) -> [f64; 2] {
     let [a, b, c] = edges.map(|edge| edge.columns_left_of(y));
     [a[0].max(b[0]).max(c[0]), a[1].min(b[1]).min(c[1])]

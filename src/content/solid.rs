@@ -421,7 +421,7 @@ impl SolidContent {
         self.holes_at(t).filter(|(_, is_absent)| *is_absent).count() + transient_loops
     }
 
-    /// All holes, each with a flag that tells whether it is absent at `t`.
+    /// All holes, each with whether it is absent at `t`.
     fn holes_at(&self, t: f64) -> impl Iterator<Item = (&TransientHole, bool)> {
         let holes = self.holes.iter().enumerate();
         holes.map(move |(k, hole)| (hole, hole.is_absent(self.hole_time(k, t))))

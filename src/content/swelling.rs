@@ -7,10 +7,12 @@
 use crate::geometry::{DVec2, inradius, inset};
 use crate::warp::TimeWindow;
 
-/// Part of one design that swells. It is drawn instead of the part's boundary loops.
+/// Part that exists in only one design and swells from thin lines. While it swells, it is drawn
+/// instead of the part's boundary loops.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SwellingShape {
-    /// Indices of the boundary loops that the part replaces. The first one encloses the others.
+    /// Indices of the part's boundary loops, which are not drawn while the part swells. The first
+    /// loop encloses the others.
     loop_indices: Vec<usize>,
     /// Rings of the full shape, relative to the mean of the points of the first ring.
     rings: Vec<Vec<DVec2>>,
@@ -21,8 +23,9 @@ pub struct SwellingShape {
 }
 
 impl SwellingShape {
-    /// Creates a part that replaces the boundary loops with the indices `loop_indices`. `rings`
-    /// contains the same loops as they are in the design that has the part, the outer one first.
+    /// Creates a swelling part. While it swells, the boundary loops with the indices `loop_indices`
+    /// are not drawn. `rings` contains the same loops as they are in the design that has the part,
+    /// the outer one first.
     #[must_use]
     pub fn new(loop_indices: Vec<usize>, rings: &[Vec<DVec2>], window: TimeWindow) -> Self {
         let middle = rings.first().map_or(DVec2::ZERO, |ring| mean_point(ring));
@@ -35,7 +38,7 @@ impl SwellingShape {
         }
     }
 
-    /// Indices of the boundary loops that the part replaces.
+    /// Indices of the part's boundary loops, which are not drawn while the part swells.
     pub(crate) fn loop_indices(&self) -> &[usize] {
         &self.loop_indices
     }
@@ -88,7 +91,8 @@ mod tests {
         };
         let frame = SwellingShape::new(vec![3, 4], &[ring(4.0), hole], window);
         let away = DVec2::new(10.0, 0.0);
-        // A tiny ring, as the loop is where the part is absent. Only its mean matters.
+        // In the design that lacks the part, the boundary loop is a tiny ring. Only the mean of its
+        // points matters.
         let tiny_loop: Vec<DVec2> = ring(0.01).into_iter().map(|p| p + away).collect();
         assert!(frame.rings_at(&tiny_loop, 0.5).is_empty());
         let half = frame.rings_at(&tiny_loop, 2.0 / 3.0);

@@ -46,7 +46,8 @@ impl BoundaryMatch {
             pairs.sort_by(|a, b| a[0].total_cmp(&b[0]));
             pairs
         };
-        // −π is outside (−π, π], so a half turn keeps its sign.
+        // The inverse has the opposite rotation. A half turn stays π, because −π is outside
+        // (−π, π].
         let is_half_turn = self.rotation == std::f64::consts::PI;
         Self {
             knots: swapped(&self.knots),

@@ -16,8 +16,8 @@ use crate::geometry::{DVec2, SimilarityFit};
 /// which two curves count as nearly congruent, as a fraction of the target's length (heuristic).
 const MAX_RESIDUAL: f64 = 0.012;
 
-/// Maximum distance along the target by which a knot moves from its original place, as a fraction
-/// of the target's length (heuristic).
+/// Maximum distance along the target by which a knot may move from its original place, as a
+/// fraction of the target's length (heuristic).
 const MAX_SHIFT: f64 = 0.025;
 /// Maximum distance at which a transformed source point is matched with its nearest target point,
 /// as a fraction of the target's length (heuristic).
@@ -37,10 +37,11 @@ const SAME_DIRECTION: f64 = 0.5;
 /// its exact place, so that corners stay on corners (tolerance: above rounding).
 const MIN_SHIFT: f64 = 1e-9;
 
-/// Moves the target place of each knot to the target point nearest to the knot's source point under
-/// the best-fitting similarity. A knot without such a point nearby keeps its place. `knots` ascend
-/// in the source; pins do not move. Returns `None` if no similarity maps the curves almost onto
-/// each other, or if half of the knots or more would break the order.
+/// Maps the source point of each knot by the best-fitting similarity, and moves the knot's target
+/// place to the target point nearest to the result. A knot without such a point nearby keeps its
+/// place; pins do not move. `knots` ascend in the source. Knots that would then break the cyclic
+/// order are omitted. Returns `None` if these are half of the knots or more, or if no similarity
+/// maps the curves almost onto each other.
 pub(super) fn registered_knots(
     knots: &[[f64; 2]],
     pins: &[[f64; 2]],
@@ -56,7 +57,7 @@ pub(super) fn registered_knots(
             .map(|&nearest| target.point_at(nearest))
             .collect();
         let fit = SimilarityFit::of(&points, &landed)?;
-        // Check only the residual of the first round, because later rounds reduce it for any two
+        // Check the residual in the first round only, because later rounds reduce it for any two
         // curves.
         if round == 0 && fit.residual(&points, &landed) > MAX_RESIDUAL * length {
             return None;

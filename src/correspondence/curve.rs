@@ -24,10 +24,11 @@ pub struct BoundaryCurve {
     places: Vec<f64>,
     /// Unwrapped direction of each edge, in radians.
     directions: Vec<f64>,
-    /// Integral of the direction with respect to the place: from place 0 to each point, and to
-    /// place 1.
+    /// Integral of the unwrapped direction with respect to the place: from place 0 to each point,
+    /// and to place 1.
     integral: Vec<f64>,
-    /// Change of the direction over one round, in radians: 2π times the turning number.
+    /// Change of the unwrapped direction once around the curve, in radians: 2π times the turning
+    /// number.
     round: f64,
 }
 
@@ -84,7 +85,8 @@ impl BoundaryCurve {
         &self.points
     }
 
-    /// Returns the place of each vertex, in order, non-decreasing.
+    /// Returns the place of each vertex, a fraction of the curve's length from its first point. The
+    /// places are in order and do not decrease.
     #[must_use]
     pub fn places(&self) -> &[f64] {
         &self.places[..self.points.len()]
@@ -99,7 +101,8 @@ impl BoundaryCurve {
         (self.directions[point] - before).abs() > MIN_BEND
     }
 
-    /// Returns the point at a place, exact at the curve's vertices. Places are taken modulo 1.
+    /// Returns the point at a place, a fraction of the curve's length from its first point, taken
+    /// modulo 1. At the curve's vertices, the result is exact.
     #[must_use]
     pub fn point_at(&self, place: f64) -> DVec2 {
         let place = self.wrapped(place);
@@ -131,8 +134,9 @@ impl BoundaryCurve {
         }
     }
 
-    /// Returns the place of the curve's point that is nearest to `p`, for example to put a pin on
-    /// the curve. Among several nearest points, the first one counts.
+    /// Returns the place (fraction of the curve's length) of the curve's point that is nearest to
+    /// `p`, for example to put a pin on the curve. Among several nearest points, the first one
+    /// counts.
     #[must_use]
     pub fn nearest(&self, p: DVec2) -> f64 {
         let mut best = (f64::INFINITY, 0.0);
@@ -142,9 +146,9 @@ impl BoundaryCurve {
         self.wrapped(best.1)
     }
 
-    /// Returns the place, between the unwrapped places `from` and `to`, of the curve's point that
-    /// is nearest to `p`, and the distance of that point from `p`. Requires `from <= to`; at most
-    /// one round is searched.
+    /// Finds the point nearest to `p` on the section of the curve from place `from` to place `to`.
+    /// Returns its place, in [0, 1), and its distance from `p`. `from` and `to` may lie outside
+    /// [0, 1). Requires `from <= to`; at most one round is searched.
     pub(super) fn nearest_within(&self, p: DVec2, from: f64, to: f64) -> (f64, f64) {
         let to = to.min(from + 1.0);
         let mut best = (f64::INFINITY, self.wrapped(from));
@@ -204,8 +208,8 @@ impl BoundaryCurve {
         if place < 1.0 { place } else { 0.0 } // rem_euclid rounds -1e-20 up to 1
     }
 
-    /// Returns the mean unwrapped direction of the tangent between two unwrapped places, in
-    /// radians.
+    /// Returns the mean unwrapped direction of the tangent between two places, in radians. The
+    /// places may lie outside [0, 1).
     pub(super) fn direction(&self, from: f64, to: f64) -> f64 {
         (self.direction_integral(to) - self.direction_integral(from)) / (to - from)
     }
@@ -222,9 +226,9 @@ impl BoundaryCurve {
         let rounds = place.floor();
         let partial = place - rounds;
         let whole = rounds * self.integral[self.directions.len()];
-        // In round k the direction is larger by k · `round`. Over the whole rounds, these factors k
-        // sum to 0 + 1 + … + (rounds − 1); the partial last round, with k = rounds, adds rounds ·
-        // `partial`.
+        // In round k the direction is larger by k · `round` than in round 0. The whole rounds have
+        // k = 0, 1, …, rounds − 1, with the sum 0.5 · rounds · (rounds − 1). The partial last round
+        // has k = rounds and the length `partial`.
         let full_rounds = self.round * rounds * (partial + 0.5 * (rounds - 1.0));
         whole + full_rounds + self.integral_within(partial)
     }
@@ -242,8 +246,8 @@ impl BoundaryCurve {
     }
 }
 
-/// Returns the edge vectors divided by the ring's larger extent, so that squares neither overflow
-/// nor underflow. Returns `None` if the extent is zero or not finite.
+/// Returns the edge vectors divided by the longer side of the ring's bounding box, so that squares
+/// neither overflow nor underflow. Returns `None` if that side is zero or not finite.
 fn unit_edges(ring: &Ring) -> Option<Vec<DVec2>> {
     let extent = ring.bounds().size().max_element();
     let is_measurable = extent.is_finite() && extent > 0.0;

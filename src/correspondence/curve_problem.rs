@@ -18,7 +18,7 @@ use crate::geometry::DVec2;
 /// samples, and no more than this number; it takes at most a quarter of the time.
 const COARSE_SEARCH_SAMPLES: u32 = 96;
 
-/// Two sampled curves with their features, pins and weights.
+/// Two sampled curves with their features and pins, and the weights of the cost's terms.
 pub(super) struct CurveMatchProblem {
     pub(super) source: CurveSamples,
     pub(super) target: CurveSamples,
@@ -33,10 +33,10 @@ pub(super) struct CurveMatchProblem {
     pub(super) thickness: f64,
     /// Whether directions are compared as drawn, without a search for a rotation.
     pub(super) keep_up: bool,
-    /// Weight of differences in inner distances.
+    /// Weight of differences in inner distances (lengths of shortest paths inside the shape).
     pub(super) inner_weight: f64,
-    /// Inner distances of source and target; `None` if their weight is zero, or if a curve has no
-    /// inside.
+    /// Inner distances between the samples of the source, and of the target. `None` if the weight
+    /// of inner distances is zero, or if a curve has no inside.
     pub(super) inner_descriptors: Option<[InnerDescriptors; 2]>,
     /// The same problem with fewer samples, which selects the poses that are worth a full search.
     /// `None` if the full search is small.

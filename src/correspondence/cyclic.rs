@@ -12,8 +12,8 @@
 
 use super::path_grid::{GridPath, PathBuffers, StepCosts};
 
-/// Maximum size of half a range of starting columns at which one thread solves both halves; larger
-/// halves are solved in parallel (heuristic).
+/// Maximum number of starting columns in half of a range at which both halves are solved one after
+/// the other; larger halves are solved in parallel (heuristic).
 const MAX_SEQUENTIAL_STARTS: usize = 16;
 
 /// Returns the cheapest path of each starting column 0 ≤ k < n. The grid has at least 2n columns.
@@ -35,8 +35,9 @@ pub(super) fn cheapest_path_per_start(costs: &StepCosts, n: usize) -> Vec<GridPa
     first.chain(between.into_iter().flatten()).collect()
 }
 
-/// Solves the starting columns after `left`, one for each entry of `between`. `lower` and `upper`
-/// are the paths from the starts just before and just after them.
+/// Stores in `between` the cheapest paths from the starting columns after `left`, one for each
+/// entry. `lower` and `upper` are the paths from the starting columns just before and just after
+/// these.
 fn bisect(
     costs: &StepCosts,
     n: usize,
@@ -50,8 +51,8 @@ fn bisect(
     }
     let half = between.len() / 2;
     let middle = left + 1 + half;
-    // Cheapest paths need not cross, so the search is limited to the strip between `lower` and
-    // `upper`.
+    // There are cheapest paths that do not cross each other, so the search is limited to the strip
+    // between `lower` and `upper`.
     let window = |j: usize| [lower.rows[j][0], upper.rows[j][1]];
     let route = costs.cheapest_path([middle, middle + n], window, scratch);
     let (left_starts, right_starts) = between.split_at_mut(half);
@@ -90,7 +91,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Generates a torus of random dissimilarities with uneven samples.
+    /// Generates two closed curves with unevenly spaced samples and random dissimilarities, as an
+    /// unrolled grid with the number of source samples.
     fn torus() -> impl Strategy<Value = (PathGrid, usize)> {
         (1usize..14, 1usize..14).prop_flat_map(|(n, m)| {
             let gaps = |k| prop::collection::vec(0.1f64..1.0, k);

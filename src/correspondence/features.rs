@@ -16,8 +16,8 @@ use std::f64::consts::PI;
 /// tail that curls the other way (heuristic).
 const REACHES: [(f64, f64); 3] = [(0.012, 0.5), (0.035, 0.5), (0.09, 0.2)];
 
-/// Squared logarithm of the ratio of two thicknesses at which their saturated difference is one
-/// half; 0.5 corresponds to a ratio of about two (heuristic).
+/// The dissimilarity of two thicknesses is x / (x + `HALF_THICKNESS`), where x is the squared
+/// logarithm of their ratio; it is one half for a ratio of about two (heuristic).
 const HALF_THICKNESS: f64 = 0.5;
 
 /// Half-length of the window over which the tangent's direction is averaged, as a fraction of the
@@ -38,15 +38,16 @@ impl PoseWeights {
         position: 0.125,
     };
 
-    /// Weights for the pose that the user requested with "keep up" (heuristic).
+    /// Weights for rotation 0, which the user requested with `keep_up` (heuristic).
     pub const FIXED: Self = Self {
         tangent: 2.0,
         position: 1.0,
     };
 }
 
-/// Squared distance between two positions at which their saturated difference is one half, in units
-/// of the outline's mean squared radius: a distance of one radius.
+/// The dissimilarity of two positions is d² / (d² + `HALF_DISTANCE`), where d is their distance in
+/// units of the outline's root mean squared radius; it is one half for a distance of one such
+/// radius.
 const HALF_DISTANCE: f64 = 1.0;
 
 /// Features of each sample of a curve.
@@ -56,9 +57,10 @@ pub(super) struct BoundaryFeatures {
     turning: Vec<[f64; REACHES.len()]>,
     /// For each sample: logarithm of the thickness, minus its mean along the curve.
     log_thickness: Vec<f64>,
-    /// For each sample: unit vector in the mean direction of the boundary.
+    /// For each sample: unit vector in the mean direction of the boundary near the sample.
     tangent: Vec<DVec2>,
-    /// For each sample: position relative to the centre, in units of the root mean squared radius.
+    /// For each sample: position relative to the mean of all samples, in units of the samples' root
+    /// mean squared distance from this mean.
     position: Vec<DVec2>,
 }
 
@@ -86,8 +88,8 @@ impl BoundaryFeatures {
         self.turning[sample].iter().map(|turn| turn.abs()).sum()
     }
 
-    /// Returns a sample's position relative to the centre, in units of the root mean squared
-    /// radius.
+    /// Returns a sample's position relative to the mean of all samples, in units of the samples'
+    /// root mean squared distance from this mean.
     pub fn position(&self, sample: usize) -> DVec2 {
         self.position[sample]
     }

@@ -10,12 +10,12 @@ use super::curve::BoundaryCurve;
 use super::inner_distance::InnerDistances;
 use super::samples::CurveSamples;
 
-/// Squared logarithm of the ratio of two inner distances at which their saturated difference is one
-/// half: a ratio of 1.65 (heuristic).
+/// The dissimilarity of two inner distances is x / (x + `HALF_RATIO`), where x is the squared
+/// logarithm of their ratio; it is one half for a ratio of 1.65 (heuristic).
 const HALF_RATIO: f64 = 0.25;
 
-/// Minimum inner distance, as a fraction of the median. Smaller distances are clamped to it,
-/// because the boundary features suffice to compare close neighbours (heuristic).
+/// Minimum inner distance, as a fraction of the median inner distance. Smaller distances are raised
+/// to this minimum, because the boundary features suffice to compare close neighbours (heuristic).
 const MIN_DISTANCE: f64 = 0.03;
 
 /// Number of entries in a sample's initial descriptor: the inner distances to this number of evenly

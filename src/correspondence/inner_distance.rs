@@ -62,24 +62,25 @@ struct TriangulatedPolygon<'a> {
     places_of: Vec<Vec<usize>>,
 }
 
-/// Vertex of a funnel, with the length of the shortest path to it from the common start of all
-/// paths.
+/// Vertex of a funnel, with the length of the shortest path to this vertex from the place at which
+/// all paths start.
 #[derive(Clone, Copy)]
 struct FunnelVertex {
     at: DVec2,
     length: f64,
 }
 
-/// Funnel of the shortest paths from the common start to both ends of a crossed edge. `bends` runs
-/// from the edge's left end, as seen along the path, back to the apex where the two paths separate,
-/// and from there to the right end.
+/// Funnel: the shortest paths from one place to the two ends of an edge of the triangulation, after
+/// they separate. `bends` runs from the edge's left end, as seen along the paths, back to the apex
+/// at which they separate, and from there to the edge's right end.
 struct Funnel {
     bends: Vec<FunnelVertex>,
     /// Index of the apex in `bends`.
     apex: usize,
-    /// Index of the face beyond the edge.
+    /// Index of the face beyond the funnel's edge.
     face: usize,
-    /// Corner of `face` at which the edge begins: 0, 1 or 2.
+    /// Corner of `face` (0, 1 or 2) at which the funnel's edge begins, if it is followed in the
+    /// direction of `face`.
     corner: usize,
 }
 
@@ -166,8 +167,9 @@ impl<'a> TriangulatedPolygon<'a> {
 }
 
 impl Funnel {
-    /// Finds the shortest path to a point `to` beyond the edge. Returns the index in `bends` of the
-    /// vertex at which the path leaves the funnel, and the path's end with its length.
+    /// Finds the shortest path to a point `to` in the face beyond the funnel's edge. Returns the
+    /// index in `bends` of the vertex at which the path leaves the funnel, and the point `to` with
+    /// the length of the path.
     fn reach(&self, to: DVec2) -> (usize, FunnelVertex) {
         let at = |k: usize| self.bends[k].at;
         let mut exit = self.apex;
@@ -186,9 +188,10 @@ impl Funnel {
         (exit, FunnelVertex { at: to, length })
     }
 
-    /// Splits the funnel at the corner ahead. Returns the bends and the apex of the funnel to the
-    /// left edge, then those of the funnel to the right edge. `exit` is the index in `bends` at
-    /// which the path to the corner leaves the funnel.
+    /// Splits the funnel at `ahead`, the corner opposite the funnel's edge in the face beyond it.
+    /// Returns the bends and the apex of the funnel to that face's left edge, then those of the
+    /// funnel to its right edge. `exit` is the index in `bends` at which the path to `ahead` leaves
+    /// the funnel.
     fn split(
         self,
         exit: usize,

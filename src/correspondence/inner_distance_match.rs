@@ -56,8 +56,8 @@ impl CurveMatchProblem {
         Some(best)
     }
 
-    /// Returns the best path if samples are compared by their inner distances to reference pairs
-    /// taken from the path `nodes`.
+    /// Takes reference pairs from the path `nodes`, compares samples by their inner distances to
+    /// these pairs, and returns the best path. Returns `None` without inner distances.
     fn path_by_pairs(&self, nodes: &[[usize; 2]]) -> Option<PathSolution> {
         let [a, b] = self.inner_descriptors.as_ref()?;
         let (pairs, weights) = self.reference_pairs(nodes);

@@ -99,8 +99,8 @@ fn cheapest_path(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 
     Some(nodes)
 }
 
-/// Returns the minimum cost of reaching node (i, j) and the index of the last step of that path, or
-/// `None` if no step comes from a node that was reached.
+/// Returns the cost of the cheapest path to node (i, j), and the index in `steps` of its last step.
+/// Returns `None` if no step to this node comes from a node that was reached.
 fn best_step(
     grid: &PathGrid,
     steps: &[MonotoneStep],
@@ -180,7 +180,7 @@ impl MonotoneStep {
 mod tests {
     use super::*;
 
-    /// Returns a grid with even samples and constant dissimilarity.
+    /// Returns a grid with evenly spaced samples and constant dissimilarity.
     fn plain(n: usize, m: usize) -> PathGrid {
         let even = |count: usize| (0..=count).map(|k| k as f64 / count as f64).collect();
         PathGrid {

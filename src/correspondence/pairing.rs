@@ -13,7 +13,8 @@ use crate::numerics::assignment::assign;
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
-/// Pairing of parts or of holes; all numbers are indices in the lists given.
+/// Pairing of the parts of two designs, or of the holes of two parts. All numbers are indices in
+/// the lists of these parts or holes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Pairing {
     /// Pairs `[source, target]`, ascending in the source.
@@ -114,7 +115,8 @@ pub(super) fn pair_holes(
         let part = |hole: &Ring| PartFeatures::of(hole, 0, origin, size, turn);
         region.holes.iter().map(part).collect::<Vec<_>>()
     };
-    // Rotate each side by half the angle, so that rounding is the same in both directions.
+    // Rotate each region by half the angle. Rounding is then the same if source and target are
+    // exchanged.
     pair(
         &parts(source, 0.5 * rotation),
         &parts(target, -0.5 * rotation),
@@ -273,7 +275,7 @@ fn pair(
     })
 }
 
-/// Returns the cost of leaving each part of a design unmatched.
+/// Returns, for each part of a design, the cost of leaving this part unmatched.
 fn unmatched_costs(parts: &[PartFeatures]) -> Vec<f64> {
     let areas: Vec<f64> = parts
         .iter()

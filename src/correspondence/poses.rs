@@ -1,5 +1,5 @@
-//! Finds the best path over the poses (rotations of one design onto the other) that are worth a
-//! search.
+//! Selects a few likely poses (rotations of one design onto the other), searches for the best path
+//! through sample pairs with each of them, and returns the best of these paths.
 
 use super::curve_problem::CurveMatchProblem;
 use super::features::PoseWeights;
@@ -17,7 +17,8 @@ const ROTATION_PENALTY: f64 = 0.0005;
 /// same pose; in radians, 20° (heuristic).
 const MIN_POSE_DISTANCE: f64 = 0.35;
 
-/// Maximum number of poses tried, not counting rotation 0 (resource limit).
+/// Maximum number of poses tried, before rotation 0 is added if it is not among them (resource
+/// limit).
 const MAX_POSES: usize = 5;
 
 /// Maximum number of times that the search is repeated with the rotation of the last match as the
@@ -98,8 +99,8 @@ impl CurveMatchProblem {
         distinct_poses(accepted.map(|solution| solution.rotation))
     }
 
-    /// Returns the dissimilarities for searches that do not estimate a pose: rotation-invariant, or
-    /// as drawn if "up" stays up.
+    /// Returns the dissimilarities for searches that do not estimate a pose. They are
+    /// rotation-invariant, except that with `keep_up` tangents and positions as drawn count too.
     pub(super) fn pose_free_dissimilarities(&self) -> Vec<f64> {
         let invariant = self.invariant_dissimilarities();
         if !self.keep_up {

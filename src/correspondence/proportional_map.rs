@@ -11,11 +11,11 @@ pub(super) type ParameterKnot = [f64; 3];
 /// Column of the common parameter in a [`ParameterKnot`].
 pub(super) const BOTH: usize = 2;
 
-/// A vertex that both polygons will have: its common parameter, and its place on each curve of
-/// which it is a vertex or a pin.
+/// A vertex that both polygons will have. It has one common parameter, and its own place on each
+/// curve on which it is a vertex or a pin.
 #[derive(Clone, Copy)]
 pub(super) struct SharedVertex {
-    /// Common parameter, in [0, 1).
+    /// Parameter of the vertex, common to both curves, in [0, 1).
     pub at: f64,
     /// Places on the source and on the target; `None` where the place follows from the parameter.
     pub places: [Option<f64>; 2],

@@ -1,18 +1,18 @@
 //! Matches two designs with all their parts and holes.
 //!
-//! Parts are paired, and the outer boundaries and holes of each pair are matched. A hole that
-//! exists in only one design closes to a point, or its part is cut open from the hole to a
-//! boundary, or its part is matched without it. A part that exists in only one design is matched with a piece split off a
-//! part of the other design, or it grows from a point. The result is a list of [`PieceMatch`]es.
-//! Each is connected and has the same number of rings in both designs, so that both can share one
-//! triangulation.
+//! Parts are paired, and the outer boundaries and holes of each pair are matched. If a hole exists
+//! in only one design, it closes to a point or opens from one, or its part is cut open from the
+//! hole to a boundary, or its part is matched as if there were no hole. If a part exists in only
+//! one design, it is matched with a piece split off a part of the other design, or it shrinks to a
+//! point or grows from one. The result is a list of [`PieceMatch`]es. Each piece is connected and
+//! has the same number of rings in both designs, so that both designs can share one triangulation.
 //!
 //! Guaranteed: corresponding rings have the same number of vertices, and contain all vertices of
 //! the given outlines without rounding. Pins are satisfied exactly or rejected with an error.
-//! Matching in the other direction gives the same pieces. Where a hole or a
-//! part closes to a point, or grows from one, each of its rings is matched with a tiny ring that
-//! represents the point. The diameter of a tiny ring is at most [`POINT_SIZE`] times that of a part:
-//! for a hole, the part of the other design in which the tiny ring lies; for a part, the part itself.
+//! Matching in the other direction gives the same pieces. Where a hole or a part closes to a point,
+//! or grows from one, each of its rings is matched with a tiny ring that represents the point. The
+//! diameter of a tiny ring is at most [`POINT_SIZE`] times the diameter of a part. For a hole, this
+//! is the part of the other design in which the tiny ring lies; for a part, it is the part itself.
 //!
 //! Not guaranteed: that a split or a cut is the best possible. It is only the best of those tried.
 

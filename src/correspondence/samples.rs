@@ -1,5 +1,5 @@
-//! Sample places along a curve, as fractions of its arc length: corners, pins, and evenly spaced
-//! places between them.
+//! Chooses the places at which a curve is sampled: corners, pins, and evenly spaced places between
+//! them. A place is a fraction of the curve's arc length.
 //!
 //! A corner is a point where the direction jumps: its turning hardly decreases when the window
 //! becomes shorter. On a smooth bend the turning is proportional to the window, no matter how many

@@ -75,9 +75,9 @@ pub struct UnmatchedPart {
 pub struct RingCut {
     /// Design that is cut.
     pub side: Side,
-    /// Point near the cut's other end, which lies on the outer boundary or on another hole.
+    /// Point near the end of the cut that lies on the part's outer boundary or on another hole.
     pub outer: DVec2,
-    /// Point near the cut's end on the hole.
+    /// Point near the end of the cut that lies on the hole.
     pub hole: DVec2,
 }
 

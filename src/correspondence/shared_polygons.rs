@@ -15,13 +15,14 @@ use super::proportional_map::{BOTH, ParameterKnot, ProportionalMap, SharedVertex
 use super::samples::corners;
 use crate::geometry::DVec2;
 
-/// Maximum difference between the common parameters of a corner of one curve and a corner of the
-/// other at which the two are merged, as a fraction of the curves' mean length (heuristic).
+/// A corner of one curve is merged with a corner of the other if their positions, measured by the
+/// parameter common to both curves, differ by at most this fraction of the curves' mean length
+/// (heuristic).
 const SNAP_CORNERS: f64 = 0.008;
 
-/// Maximum difference between the common parameters of any two vertices, one of each curve, at
-/// which they are merged, as a fraction of the curves' mean length (heuristic). Corners have the
-/// larger limit [`SNAP_CORNERS`].
+/// A vertex of one curve is merged with a vertex of the other if their positions, measured by the
+/// parameter common to both curves, differ by at most this fraction of the curves' mean length
+/// (heuristic). Corners have the larger limit [`SNAP_CORNERS`].
 const SNAP: f64 = 0.0025;
 
 /// Two polygons with corresponding vertices: vertex k of the source corresponds to vertex k of the
@@ -45,7 +46,8 @@ const SAME_PARAMETER: f64 = 1e-12;
 /// drawing rarely tie).
 const SEAM_DIRECTION: DVec2 = DVec2::new(0.754_877_666, 0.569_840_291);
 
-/// Maximum number of vertices added to a polygon to satisfy `spacing` (resource limit).
+/// Maximum number of vertices added to a polygon to make its edges as short as requested (resource
+/// limit).
 const MAX_ADDED: f64 = 1e5;
 
 impl BoundaryMatch {
@@ -116,8 +118,8 @@ struct CommonParameter {
 }
 
 impl CommonParameter {
-    /// Creates the parameter of a match. Its seam is a knot that is a vertex of both curves, if
-    /// there is one.
+    /// Creates the common parameter of a match. It starts from 0 at a knot that is a vertex of both
+    /// curves, if there is one.
     fn new(matched: &BoundaryMatch, curves: [&BoundaryCurve; 2]) -> Self {
         let mut knots = matched.knots.clone();
         let is_vertex = |place: f64, c: &BoundaryCurve| {
@@ -183,9 +185,9 @@ fn insert(knots: &mut Vec<ParameterKnot>, [a, b]: [f64; 2]) {
     }
 }
 
-/// Adds knots that merge pairs of vertices, one of each curve. A pair is merged if, under the
-/// current knots, each is the nearest to the other, their parameters differ by at most `limit`, and
-/// both lie between the same knots.
+/// Adds knots that merge pairs of vertices, one vertex of each curve. Two vertices are merged if,
+/// under the current knots, each is the vertex of its curve that is nearest to the other one, their
+/// parameters differ by at most `limit`, and both lie between the same two knots.
 fn merge_nearest(knots: &mut Vec<ParameterKnot>, parameters: &[Vec<f64>; 2], limit: f64) {
     let warped = [0, 1].map(|side| -> Vec<f64> {
         let warped = |&t: &f64| interpolate_knots(knots, t, [side, BOTH]);

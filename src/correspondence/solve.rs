@@ -109,7 +109,7 @@ impl CurveMatchProblem {
     }
 }
 
-/// Expands longer steps to unit steps along the straight line.
+/// Replaces each longer step by unit steps along the straight line between its ends.
 fn unit_steps(nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let mut expanded = vec![nodes[0]];
     for step in nodes.windows(2) {

@@ -70,7 +70,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<ImportedOutlines, Dxf
         return Err(DxfError::Open { count, at });
     }
     let (regions, mut repairs) = Regions::from_rings_reporting(&rings, FillRule::EvenOdd)?;
-    // `repairs` counts duplicate rings, `joined` duplicate curves.
+    // So far, `repairs` counts only duplicate rings; `joined` counts duplicate curves.
     repairs.duplicates += joined.duplicates;
     let mut notes = ImportNote::from_repairs(&repairs, FillRule::EvenOdd);
     notes.extend(joined.loose_ends.first().map(|&at| ImportNote::OpenCurves {
@@ -107,7 +107,8 @@ fn layers_by_style(
         paths_by_style.entry(key).or_default().push(path);
     }
     let mut rings_by_style = Vec::with_capacity(paths_by_style.len());
-    // Curves that form no ring with curves of their own style, and the index of each one's style.
+    // Curves that form no ring with other curves of their style, and for each of these curves the
+    // index of its style.
     let (mut remaining, mut remaining_styles) = (Vec::new(), Vec::new());
     for (style, paths) in paths_by_style.values().enumerate() {
         let (mut rings, open) = flatten_paths(paths, tolerance, ROUNDING * side)?;
@@ -129,7 +130,8 @@ fn layers_by_style(
                 .map(|step| step[0].distance(step[1]));
             lengths[remaining_styles[curve]] += steps.sum::<f64>();
         }
-        // `max_by` returns the last maximum, so the order is reversed: the first style wins a tie.
+        // `max_by` returns the last of several maxima, so the order is reversed to let the first
+        // style win a tie.
         let longest = (0..lengths.len())
             .rev()
             .max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]));

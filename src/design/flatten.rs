@@ -4,7 +4,7 @@
 //! of each piece from its chord is at most d (d − 1) / (8 n²) times the largest second difference
 //! of the control points (Wang 1984). The number of pieces is therefore known in advance, and the
 //! error is bounded, not estimated. The bound does not hold for curves that would need more than
-//! [`MAX_PIECES`] pieces, such as curves thousands of pages long.
+//! [`MAX_PIECES`] pieces: at the default tolerance, curves thousands of pages long.
 
 use crate::geometry::DVec2;
 use usvg::tiny_skia_path::{Path, PathSegment, Point};
@@ -16,8 +16,9 @@ pub(super) const MAX_POINTS: usize = 2_000_000;
 /// of the `f32` coordinates in SVG drawings).
 pub(super) const MIN_TOLERANCE: f64 = 1e-7;
 
-/// Maximum number of pieces per curve (resource limit: at the minimum tolerance, 1e-7 of the page,
-/// a curve ten pages long reaches it).
+/// Maximum number of pieces per curve (resource limit: even at [`MIN_TOLERANCE`], a cubic curve
+/// needs more only if the second differences of its control points exceed twice the page's longer
+/// side).
 const MAX_PIECES: f64 = 4096.0;
 
 /// Error for outlines that flatten into too many points.
@@ -95,7 +96,7 @@ impl Flattener {
     /// bound of the length of its second derivative.
     fn curve(&self, ring: &mut Vec<DVec2>, [b, c, d]: [DVec2; 3], bend: f64) {
         let a = ring.last().copied().unwrap_or(b);
-        // Wang's n for this tolerance; `bend` includes the factor d (d − 1).
+        // Number of pieces by Wang's bound. `bend` is d (d − 1) times the second difference.
         let pieces = (bend / (8.0 * self.tolerance)).sqrt().ceil();
         let pieces = pieces.clamp(1.0, MAX_PIECES) as u32;
         ring.extend((1..pieces).map(|k| {

@@ -244,12 +244,12 @@ fn truss_outline(truss: &Truss, bar_width: f64) -> Result<Regions, RegionsError>
     union_of(&capsules)
 }
 
-/// Maximum number of shapes united in one operation (resource limit: uniting hundreds of
-/// bars that cross in the same points at once takes gigabytes).
+/// Maximum number of shapes united in one operation (resource limit: if hundreds of bars that cross
+/// in the same points are united in a single operation, this takes gigabytes).
 const UNION_BATCH: usize = 16;
 
-/// Returns the union of the rings. Large sets are united recursively in halves, so that
-/// edges inside one half are removed before they meet the other.
+/// Returns the union of the rings. Large sets are halved recursively: each half is united
+/// separately, which removes its inner edges before the two halves are united.
 fn union_of(rings: &[Vec<DVec2>]) -> Result<Regions, RegionsError> {
     if rings.len() <= UNION_BATCH {
         return Regions::from_rings(rings, FillRule::NonZero);
@@ -319,8 +319,9 @@ mod tests {
         let regions = truss_outline(&truss, 0.2).expect("area");
         assert_eq!(regions.len(), 1);
         assert_eq!(regions.rings().count(), 2);
-        // With r = 0.1, half the bar width: the outer outline encloses area + perimeter · r + π r²;
-        // the hole is a similar triangle whose inradius is 1 − r.
+        // Let r = 0.1 be half the bar width. The triangle of the nodes has area 6, perimeter 12 and
+        // inradius 1. The outer outline encloses 6 + 12 r + π r²; the hole is a similar triangle
+        // with the inradius 1 − r.
         let expected = 6.0 + 12.0 * 0.1 + PI * 0.01 - 6.0 * 0.9 * 0.9;
         assert!(
             (regions.area() - expected).abs() < 1e-3,
@@ -331,7 +332,7 @@ mod tests {
 
     #[test]
     fn bars_that_cross_in_the_same_points_are_united() {
-        // The complete graph on a regular polygon: only small gaps between bars remain.
+        // The bars join all pairs of corners of a regular polygon and leave only small gaps.
         let count = 40_u32;
         let node = |k: u32| DVec2::from_angle(2.0 * PI * f64::from(k) / f64::from(count));
         let bars = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
@@ -348,7 +349,7 @@ mod tests {
 
     #[test]
     fn batched_union_of_many_bars_is_exact() {
-        // A square grid whose bars are listed row by row, in more than two batches.
+        // A square grid with so many bars that they are united in more than two batches.
         let count = 12_u32;
         let node = |i: u32, j: u32| i * count + j;
         let places =

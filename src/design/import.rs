@@ -85,7 +85,8 @@ impl DesignSource {
     }
 }
 
-/// Imports the bytes of a file, or only the element of an SVG drawing with the given id.
+/// Imports the bytes of a file. If `element` is given, the file must be an SVG drawing, and only
+/// the element with this id is imported.
 fn read(
     name: String,
     bytes: &[u8],
@@ -96,7 +97,7 @@ fn read(
     if bytes.is_empty() {
         return Err(ImportProblem::Empty);
     }
-    // The caller may pass bytes that did not pass the size check of the file reader.
+    // The file reader limits the size of a file, but a caller may pass bytes from elsewhere.
     check_size(bytes)?;
     let format = sniff(bytes)?;
     if let (Some(id), true) = (element, format != Format::Svg) {

@@ -75,8 +75,8 @@ const MAX_CHARS: usize = 2000;
 /// Format (Unicode, UAX #15).
 const MAX_MARKS: usize = 30;
 
-/// Design units per em: the usual resolution of fonts, which gives letters about the size
-/// of drawings.
+/// Design units per em: the usual resolution of fonts. Letters are then about as large, in design
+/// units, as typical drawings.
 const EM: f64 = 1000.0;
 
 /// Converts `text` to outlines.

@@ -38,7 +38,8 @@ pub enum ImportNote {
     Duplicates(usize),
     /// Number of ignored outlines that enclose no area.
     EmptyOutlines(usize),
-    /// Number of ignored tiny pieces between touching edges.
+    /// Number of ignored slivers: tiny areas that the repair of outlines leaves where edges touch
+    /// or almost touch.
     Slivers(usize),
     /// Number of removed points that repeat the previous point or lie on a straight line
     /// between their neighbours.
@@ -87,7 +88,8 @@ pub enum ImportNote {
 }
 
 impl ImportNote {
-    /// Returns the notes for the repairs of outlines under a fill rule.
+    /// Returns one note for each kind of repair with a count above 0. `rule` is the fill rule that
+    /// decided what is inside.
     pub(super) fn from_repairs(found: &Repairs, rule: FillRule) -> Vec<Self> {
         let at_least = found.at_least;
         let crossings = Self::Crossings {
@@ -120,10 +122,10 @@ impl ImportNote {
     }
 }
 
-/// Numbers of the unusable objects in a file, by type. Displayed as the end of a clause: `, only 2
-/// TEXT`.
+/// Objects of a file from which nothing can be imported: maps each type name to the number of
+/// objects of that type.
 ///
-/// The map leads from each type name to the number of objects.
+/// Displayed as the continuation of an error message, such as `, only 2 TEXT`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OtherKinds(pub BTreeMap<String, usize>);
 
@@ -138,10 +140,6 @@ impl fmt::Display for OtherKinds {
 }
 
 impl fmt::Display for ImportNote {
-    #[expect(
-        clippy::too_many_lines,
-        reason = "one list; longer names wrap its lines"
-    )]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Crossings {
@@ -149,13 +147,7 @@ impl fmt::Display for ImportNote {
                 at_least,
                 rule,
             } => write_crossings(f, *count, *at_least, *rule),
-            Self::Touches { count, at_least } => {
-                let least = lower_bound(*at_least);
-                let one = "corner lies on another edge, which was split";
-                let many = "corners lie on other edges, which were split";
-                let what = number([one, many], *count);
-                write!(f, "{least}{count} {what}")
-            }
+            Self::Touches { count, at_least } => write_touches(f, *count, *at_least),
             Self::Duplicates(n) => {
                 write_ignored(f, *n, ["duplicate outline", "duplicate outlines"])
             }
@@ -240,6 +232,15 @@ impl ImportNote {
             _ => Ok(()),
         }
     }
+}
+
+/// Writes how many corners lay on other edges.
+fn write_touches(f: &mut fmt::Formatter<'_>, count: usize, at_least: bool) -> fmt::Result {
+    let least = lower_bound(at_least);
+    let one = "corner lies on another edge, which was split";
+    let many = "corners lie on other edges, which were split";
+    let what = number([one, many], count);
+    write!(f, "{least}{count} {what}")
 }
 
 /// Writes the note on edge crossings.

@@ -5,10 +5,10 @@
 //! give the same connectivity. OBJ crates that renumber vertices by first use or per texture
 //! coordinate do not guarantee this, and lose the numbers that error messages need.
 //!
-//! Faces with more than three vertices are cut into a fan about their first vertex: unlike
-//! a better triangulation, a fan does not depend on the positions, so it is the same in
-//! both files. It requires nearly convex faces. Orientation is not checked here, but when
-//! two meshes are paired.
+//! Faces with more than three vertices are cut into a fan about their first vertex. Unlike a better
+//! triangulation, a fan does not depend on the positions, so two files with the same `f` lines get
+//! the same triangles. A fan requires nearly convex faces. The orientation of the faces is not
+//! checked here, but when two meshes are paired.
 
 use crate::geometry::{DVec2, RANGE_MESSAGE, is_in_range};
 use crate::mesh::{MeshError, TriangleMesh};
@@ -45,7 +45,7 @@ pub enum ObjError {
     Mesh(#[from] MeshError),
 }
 
-/// Fault of a vertex or face, identified by its number.
+/// Fault of a line that defines a vertex or a face. Vertices and faces are numbered from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjFault {
@@ -63,7 +63,7 @@ pub enum ObjFault {
         "vertex {vertex} has z = {z}, but vertex 1 has z = {first}; flatten the mesh to constant z"
     )]
     NotFlat {
-        /// Number of the vertex.
+        /// Number of the vertex, counted from 1.
         vertex: usize,
         /// The z coordinate of that vertex.
         z: f64,
@@ -82,19 +82,19 @@ pub enum ObjFault {
         "face {face} refers to vertex {named}, but there are {vertices} vertices; correct the face"
     )]
     OutOfRange {
-        /// Number of the face.
+        /// Number of the face, counted from 1.
         face: usize,
         /// Vertex number as written in the file.
         named: i64,
-        /// Number of vertices.
+        /// Number of vertices in the file; if `named` is not positive, only those before the face.
         vertices: usize,
     },
     /// A face uses a vertex twice.
     #[error("face {face} uses vertex {vertex} twice; correct the face")]
     Repeated {
-        /// Number of the face.
+        /// Number of the face, counted from 1.
         face: usize,
-        /// Number of the vertex.
+        /// Number of the vertex, counted from 1.
         vertex: usize,
     },
 }
@@ -171,8 +171,8 @@ impl ObjParser {
             self.first_z = z;
         }
         let first = self.first_z;
-        // The comparison is exact, because the size of the mesh, and so a tolerance, is not known
-        // yet.
+        // The comparison is exact: a tolerance would depend on the size of the mesh, which is not
+        // yet known.
         if z != first {
             return Err(ObjFault::NotFlat { vertex, z, first });
         }
@@ -180,8 +180,8 @@ impl ObjParser {
         Ok(())
     }
 
-    /// Reads the vertex numbers of an `f` line. Numbers that are too large are found later, because
-    /// more vertices may follow.
+    /// Reads the vertex numbers of an `f` line. Numbers above the number of vertices read so far
+    /// are accepted here and checked at the end of the file, because more vertices may follow.
     fn face<'a>(
         &mut self,
         line: usize,
@@ -240,8 +240,8 @@ impl ObjParser {
             let corners = &self.corners[first..end];
             let checked = self.check_corners(face, corners, &mut used);
             checked.map_err(|fault| ObjError::Line { line, fault })?;
-            // Triangulates the face as a fan about its first vertex; `face` has checked that it has
-            // at least three.
+            // Triangulates the face as a fan about its first vertex. `face` has rejected faces
+            // with fewer than three vertices.
             let fan = corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]);
             faces.extend(fan.map(|corners| corners.map(|c| c as u32)));
         }

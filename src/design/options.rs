@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ImportOptions {
-    /// Grey level that separates figure and background, from 1 to 255. If the picture has
-    /// transparent pixels, the opacity that separates them instead, from 1 to 255. If `None`, the
+    /// Threshold between figure and background, from 1 to 255. It applies to the opacity of the
+    /// pixels if the picture has transparent pixels, otherwise to their grey level. If `None`, the
     /// threshold is 128 for opacity and chosen by Otsu's method for grey levels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threshold: Option<u8>,
@@ -68,8 +68,8 @@ impl ImportOptions {
     /// circle in a drawing needs only about 130 points).
     pub const DEFAULT_TOLERANCE: f64 = 0.0002;
 
-    /// Maximum outline tolerance, as a fraction of the longer side (tolerance: beyond it
-    /// a shape is reduced to a handful of corners).
+    /// Maximum outline tolerance, as a fraction of the longer side (tolerance: a larger value
+    /// would reduce a shape to a handful of corners).
     const MAX_TOLERANCE: f64 = 0.1;
 
     pub(super) fn check(&self) -> Result<(), ImportOptionsError> {

@@ -21,12 +21,12 @@ pub struct Picture {
 /// per pixel, so two pictures need 0.8 GiB).
 const MAX_STORED_PIXELS: u64 = 1 << 24;
 
-/// Number of distinct colours, at 4 bits per channel, from which a picture counts as a
+/// Minimum number of distinct colours, at 4 bits per channel, of a picture that counts as a
 /// photograph. The anti-aliased edge of a silhouette has at most 16 greys (heuristic).
 const PHOTOGRAPH_COLOURS: usize = 64;
 
-/// Maximum number of pixels sampled along each side when counting colours (resource
-/// limit: avoids scanning pictures of 64 million pixels).
+/// Maximum number of pixels sampled along each side when the colours of a picture are counted
+/// (resource limit: avoids scanning all pixels of a large picture).
 const SAMPLES_PER_SIDE: u32 = 96;
 
 impl Picture {

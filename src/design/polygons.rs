@@ -55,7 +55,8 @@ pub(super) fn read(text: &str) -> Result<ImportedOutlines, PolygonsImportError> 
         Value::Object(_) => collector.read_named_members(&value)?,
         _ => collector.list(&value)?,
     }
-    // Frees the document before the union needs memory; the collector holds copies.
+    // Frees the parsed document before the union needs memory; the collector has copied the
+    // polygons.
     drop(value);
     collector.into_outlines()
 }
@@ -238,8 +239,9 @@ impl PolygonCollector {
     }
 }
 
-/// Returns one paint layer per run of consecutive features with the same style, the first
-/// at the bottom as on a map. Returns no layers if no feature has a colour.
+/// Returns one paint layer for each entry of `styled`, a run of consecutive features with the same
+/// style. The first run is at the bottom, as on a map. Returns no layers if no feature has a
+/// colour.
 fn layers_by_style(styled: Vec<(FeatureStyle, Vec<JsonRing>)>) -> Vec<PaintLayer> {
     if styled.iter().all(|(style, _)| style.paint.is_none()) {
         return Vec::new();

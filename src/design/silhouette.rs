@@ -87,8 +87,9 @@ const MAX_POINTS: usize = 2_000_000;
 /// JPEG noise).
 const SATURATED: f32 = 0.9;
 
-/// Uncertainty of a boundary point between two saturated pixels, in pixels (derived: the true
-/// boundary may run anywhere between the two pixel centres).
+/// Uncertainty, in pixels, of a boundary point between a pixel that is entirely figure and one that
+/// is entirely background (derived: the true boundary may run anywhere between the two pixel
+/// centres).
 const SATURATED_SLACK: f64 = 0.5;
 
 /// Length of the longer side, in pixels, below which a picture counts as pixel art and keeps
@@ -180,7 +181,8 @@ pub(super) fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, Sil
         // The decoder would silently fill the missing part with grey.
         return Err(SilhouetteError::Truncated);
     }
-    // The PNG decoder searches for pixel data before it reports the size.
+    // The PNG decoder reports the size only after it has found pixel data, so the size is read from
+    // the header first.
     if let Some((width, height)) = png_header_size(bytes, format) {
         check_size(width, height)?;
     }
@@ -226,7 +228,8 @@ fn classify_decode_error(error: ImageError) -> SilhouetteError {
 }
 
 /// Signed samples at the pixel centres, lowest row first: positive in the figure, negative in the
-/// background, never zero. Their magnitude is the distance from the threshold.
+/// background, never zero. The magnitude says how clearly a pixel belongs to its side: the distance
+/// of its opacity or grey level from the threshold, or a share up to 1 for flat colours.
 struct FigureSamples {
     width: u32,
     height: u32,
@@ -278,8 +281,8 @@ impl FigureSamples {
         // The number of points is checked before tracing, which allocates the rings.
         self.check_raggedness()?;
         let samples = SampledField::new(self.width, self.height, &self.samples)?;
-        // The origin of the contour is the centre of the first pixel. The origin of the outline is
-        // the corner of this pixel.
+        // Points of the contour have the centre of the lower left pixel as origin, points of the
+        // outline the lower left corner of this pixel.
         let corner_from_centre = DVec2::splat(0.5);
         let uncertainty = BoundarySlack::of(self);
         let outline = |ring: &Vec<DVec2>| {
@@ -296,7 +299,7 @@ impl FigureSamples {
             return Err(SilhouetteError::Empty { threshold });
         }
         // The even-odd rule fits, because rings do not cross, and outer rings and holes alternate
-        // with depth.
+        // with increasing nesting depth.
         Regions::from_rings(&rings, FillRule::EvenOdd).map_err(|error| match error {
             RegionsError::Empty => SilhouetteError::Empty { threshold },
             error => error.into(),
@@ -324,7 +327,8 @@ impl FigureSamples {
 /// Estimates the uncertainty of boundary points from the pixels around them.
 struct BoundarySlack<'a> {
     figure: &'a FigureSamples,
-    /// Minimum magnitudes of a saturated sample, in the figure and in the background.
+    /// For the figure and for the background: the magnitude above which a sample is saturated, that
+    /// is, its pixel counts as entirely figure or entirely background.
     saturated: [f32; 2],
 }
 
@@ -343,8 +347,8 @@ impl<'a> BoundarySlack<'a> {
     }
 
     /// Returns the maximum distance, in pixels, between the true boundary and the traced point `p`.
-    /// The point lies between two neighbouring samples; its coordinates have the first sample as
-    /// origin.
+    /// The point lies between two neighbouring samples, and the origin of its coordinates is the
+    /// lower left sample.
     fn slack(&self, p: DVec2) -> f64 {
         let sample = |p: DVec2| {
             let (width, height) = (f64::from(self.figure.width), f64::from(self.figure.height));
@@ -400,7 +404,8 @@ fn otsu(tones: &[u8]) -> Option<u8> {
         };
         if variance > best.0 {
             best = (variance, threshold, threshold);
-        // The run is extended only by the threshold that directly follows it.
+        // A run holds consecutive thresholds, so an equally good threshold extends it only if it
+        // directly follows the last one.
         } else if variance == best.0 && best.0 > 0.0 && best.2 + 1 == threshold {
             best.2 = threshold;
         }

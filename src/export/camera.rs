@@ -37,7 +37,8 @@ pub(super) const DRAWING_STAGE: &str = "drawing frames";
 pub struct Camera {
     /// The transitions to show.
     pub sequence: Sequence,
-    /// Colours and joints.
+    /// Fill colours of shapes without colours of their own, and whether the joints of trusses are
+    /// drawn.
     pub style: TransitionStyle,
     /// Part of the plane to show, and image size.
     pub view: PlaneView,

@@ -1,16 +1,19 @@
-//! Captions below the frames of a film: the name of the nearest stop, faded in and out around it.
+//! Captions below the frames of a film. Each shows the name of a stop (a named moment) or, without
+//! named stops, of a design. It fades in before the t of this stop or design, and out after it.
 
 use super::drawing::Drawing;
 use crate::colour::{Paint, Rgb};
 use crate::geometry::DVec2;
 use crate::transition::TransitionStop;
 
-/// Distance from a name's t up to which the caption of that name is fully opaque, as a fraction of
-/// the distance to the midpoint between the name and its neighbour on that side (heuristic).
+/// Distance in t up to which a caption is fully opaque, measured from the t of the caption. It is a
+/// fraction of the distance to the midpoint between this caption and its neighbour on that side
+/// (heuristic).
 const OPAQUE_UNTIL: f64 = 0.5;
 
-/// Distance from a name's t from which on the caption of that name is hidden, as a fraction of the
-/// distance to the midpoint between the name and its neighbour on that side (heuristic).
+/// Distance in t beyond which a caption is hidden, measured from the t of the caption. It is a
+/// fraction of the distance to the midpoint between this caption and its neighbour on that side
+/// (heuristic).
 const HIDDEN_FROM: f64 = 0.9;
 
 /// Captions with the times at which they appear, and their colour.
@@ -32,9 +35,9 @@ impl Captions {
     /// (heuristic).
     pub const BAND_HEIGHT: f64 = 0.12;
 
-    /// Creates captions from the names of the stops, or, if no stop has a name, from the names of
-    /// the designs, one at each whole t. The text is dark or light, whichever is readable on the
-    /// background.
+    /// Creates captions from the names of the stops (named moments of a transition). If no stop has
+    /// a name, the captions are the names of the designs, one at each whole t. The text is dark or
+    /// light, whichever is readable on the background.
     #[must_use]
     pub fn new<'a>(
         stops: &[TransitionStop],

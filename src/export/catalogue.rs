@@ -32,7 +32,7 @@ pub enum CatalogueOrder {
     /// In the order in which the blends were saved.
     #[default]
     Saved,
-    /// Highest rating first.
+    /// Most stars first.
     Stars,
     /// Alphabetically by name.
     Name,

@@ -43,7 +43,7 @@ const REMARK_STYLE: LabelStyle = LabelStyle {
     line_px: 15.0,
 };
 
-/// Text colour of the best rating (heuristic: readable on light and on dark).
+/// Text colour of the best rating (heuristic: readable on light and on dark backgrounds).
 const BEST_COLOUR: Rgb = Rgb([0x2e, 0x8b, 0x57]);
 
 /// One method on the sheet.

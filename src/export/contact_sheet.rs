@@ -19,9 +19,9 @@ const CELL_PX: u32 = 240;
 /// Maximum number of cells per row if the size of the sheet is not given (heuristic).
 const MAX_COLUMNS: usize = 6;
 
-/// Height of a label line, as a fraction of the longer side of a cell (heuristic: 17 pixels at
-/// 240). The longer side counts, so that labels of flat designs are as large as those of square
-/// designs.
+/// Height of a label line, as a fraction of the longer side of a cell (heuristic: 17 pixels for a
+/// side of 240). The longer side is used so that elongated designs have labels as large as those of
+/// square designs.
 const LABEL_SHARE: f64 = 0.07;
 
 /// Maximum label height as a fraction of its cell's height, and maximum gap as a fraction of the
@@ -114,20 +114,22 @@ impl SheetLayout {
         let corner = place * whole + DVec2::splat(0.5 * self.gap_px);
         let inner = whole - DVec2::new(self.gap_px, self.gap_px + self.label_px);
         let base = corner + DVec2::new(0.5 * inner.x, inner.y + 0.8 * self.label_px);
-        // A sheet of a few pixels has no room for images.
+        // On a sheet of a few pixels, the size could be 0 or negative.
         (corner, inner.max(DVec2::ONE), base)
     }
 }
 
 /// Returns the layout of `count` cells in as few rows as possible, filled as evenly as possible.
-/// Cells have their natural size, or are scaled down if the sheet would exceed its size limit.
+/// Cells have the size `cell`, in pixels, or are scaled down if the sheet would exceed its size
+/// limit.
 fn balanced_layout(count: usize, cell: DVec2) -> SheetLayout {
     let rows = count.div_ceil(MAX_COLUMNS);
     natural_layout([count.div_ceil(rows), rows], cell, LABEL_SHARE)
 }
 
-/// Returns the layout of `columns` × `rows` cells. Cells have their natural size (`cell`, in
-/// pixels), or are scaled down if the sheet would exceed its size limit.
+/// Returns the layout of `columns` × `rows` cells. Cells have the size `cell`, in pixels, or are
+/// scaled down if the sheet would exceed its size limit. `label` is the label height as a fraction
+/// of [`CELL_PX`].
 fn natural_layout([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> SheetLayout {
     let unit = f64::from(CELL_PX);
     let (label_px, gap_px) = (label * unit, GAP_SHARE * unit);

@@ -243,8 +243,8 @@ impl Drawing {
         self.push_label(words, base_px, height_px, paint);
     }
 
-    /// Adds paint layers. Consecutive layers of the same opaque paint are filled together, because
-    /// the anti-aliased edges of touching parts would let the background show through.
+    /// Adds paint layers. Consecutive layers of the same opaque paint are filled together;
+    /// otherwise, the background would show through the anti-aliased edges of touching parts.
     fn push_layers(
         &mut self,
         layers: &[FigureLayer],
@@ -373,33 +373,9 @@ mod tests {
     }
 
     #[test]
-    #[expect(
-        clippy::too_many_lines,
-        reason = "one list; longer names wrap its lines"
-    )]
     fn layers_are_filled_in_order_and_equal_neighbours_together() {
-        let square = |x: f64| {
-            [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0)]
-                .map(DVec2::from)
-                .to_vec()
-        };
-        let [red, none] = [1.0, 0.0].map(|opacity| Paint {
-            colour: Rgb([255, 0, 0]),
-            opacity,
-        });
-        let paints = [red, red, none, BLUE.into()];
-        let coats = paints.iter().enumerate().map(|(k, &paint)| FigureLayer {
-            rings: k..k + 1,
-            paints: [Some(paint), None],
-            gradients: [None, None],
-            lines: [None; 2],
-            t: 0.0,
-        });
-        let figure = VectorFigure {
-            rings: [0.0, 1.0, 1.5, 2.0].map(square).to_vec(),
-            layers: coats.collect(),
-            ..VectorFigure::default()
-        };
+        let [red, _] = red_and_nothing();
+        let figure = four_layers();
         let mut drawing = Drawing::new(PixelSize::new(4, 4).expect("a legal size"), None);
         drawing.push_figure(&figure, 0.0, &blue(), &view());
         let filled = |item: &DrawingItem| match item {
@@ -408,15 +384,19 @@ mod tests {
         };
         let fills: Vec<_> = drawing.items.iter().map(filled).collect();
         assert_eq!(fills, [(8, red), (4, BLUE.into())]);
-        // The stroke of a layer lies over the fill of this layer and under the next layer.
+    }
+
+    #[test]
+    fn the_stroke_of_a_layer_lies_between_its_fill_and_the_next_layer() {
+        let [red, _] = red_and_nothing();
+        let mut lined = four_layers();
+        let mut drawing = Drawing::new(PixelSize::new(4, 4).expect("a legal size"), None);
         let line = StrokeStyle {
             paint: red,
             width: 0.02,
             join: StrokeJoin::Round,
         };
-        let mut lined = figure.clone();
         lined.layers[0].lines = [Some(line), None];
-        drawing.items.clear();
         drawing.push_figure(&lined, 0.0, &blue(), &view());
         let [
             DrawingItem::Fill { .. },
@@ -431,6 +411,37 @@ mod tests {
             );
         };
         assert!((line.width - 2.0).abs() < 1e-12);
+    }
+
+    /// An opaque red and a red of opacity 0.
+    fn red_and_nothing() -> [Paint; 2] {
+        [1.0, 0.0].map(|opacity| Paint {
+            colour: Rgb([255, 0, 0]),
+            opacity,
+        })
+    }
+
+    /// Four triangles, each a layer: red, red, transparent, blue.
+    fn four_layers() -> VectorFigure {
+        let square = |x: f64| {
+            [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0)]
+                .map(DVec2::from)
+                .to_vec()
+        };
+        let [red, none] = red_and_nothing();
+        let paints = [red, red, none, BLUE.into()];
+        let layers = paints.iter().enumerate().map(|(k, &paint)| FigureLayer {
+            rings: k..k + 1,
+            paints: [Some(paint), None],
+            gradients: [None, None],
+            lines: [None; 2],
+            t: 0.0,
+        });
+        VectorFigure {
+            rings: [0.0, 1.0, 1.5, 2.0].map(square).to_vec(),
+            layers: layers.collect(),
+            ..VectorFigure::default()
+        }
     }
 
     fn view() -> PlaneView {

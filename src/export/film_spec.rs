@@ -78,11 +78,12 @@ pub struct FilmSpec {
 }
 
 impl FilmSpec {
-    /// Returns the film that the window plays: one pass with its easing, pauses and stops, and the
-    /// way back if it plays ping-pong.
+    /// Returns the film that the window plays: one pass with its easing, pauses and stops, followed
+    /// by the way back if `timing` is ping-pong.
     ///
     /// # Errors
-    /// [`FilmSpecError`] if the frame rate, the length or an end of t is out of range.
+    /// [`FilmSpecError`] if the frame rate or the number of frames is out of range, or if the first
+    /// or the last t is not finite.
     pub fn of_timing(
         timing: &Timing,
         stops: &[TransitionStop],
@@ -95,8 +96,8 @@ impl FilmSpec {
         if steps >= MAX_FRAMES {
             return Err(FilmSpecError::Count(steps.saturating_add(1)));
         }
-        // Easing can miss the ends by a rounding error, so the first and the last frame get the
-        // exact t.
+        // Easing can miss `timing.from` and `timing.to` by a rounding error, so the first and the
+        // last frame get these values directly.
         let t_of = |i: usize| match i {
             0 => timing.from,
             i if i == steps => timing.to,
@@ -114,7 +115,8 @@ impl FilmSpec {
     /// frame shows `from`. The film does not loop.
     ///
     /// # Errors
-    /// [`FilmSpecError`] if the frame rate, the count or a t is out of range.
+    /// [`FilmSpecError`] if the frame rate or the count is out of range, or if `from` or `to` is
+    /// not finite.
     pub fn evenly(from: f64, to: f64, count: usize, fps: f64) -> Result<Self, FilmSpecError> {
         check(fps, from, to)?;
         if count == 0 || count > MAX_FRAMES {
@@ -162,7 +164,8 @@ impl FilmSpec {
     /// loop.
     ///
     /// # Errors
-    /// [`FilmSpecError`] if the frame rate, the number of frames or a t is out of range.
+    /// [`FilmSpecError`] if the frame rate or the number of frames is out of range, or if a t is
+    /// not finite.
     pub fn at_times(times: Vec<f64>, fps: f64) -> Result<Self, FilmSpecError> {
         for &t in &times {
             check(fps, t, t)?;

@@ -62,8 +62,8 @@ pub fn write_gif(
     let writer = BufWriter::new(file.file_mut());
     let mut encoder = encoder(writer, camera, film, &palette).map_err(ExportError::encode(path))?;
     let mut canvas = camera.ground.map(|_| GifCanvas::default());
-    // The first and last frames and pauses are shown long enough to be looked at, so they get exact
-    // colours.
+    // Pauses, and the first and the last frame of a whole film, are shown long enough to be looked
+    // at, so each of their pixels gets the nearest palette colour.
     let frames = film.times().len();
     let is_still =
         |run: FrameRun| run.count > 1 || run.first == 0 || run.first + run.count == frames;
@@ -165,8 +165,9 @@ fn index_image(image: RgbaImage, palette: &GifPalette) -> IndexedFrame {
 }
 
 /// Encodes the next frame. With a `canvas` (on a coloured background), only the changes are stored.
-/// Without one (on a transparent background), the opaque part of the frame is stored, and players
-/// erase it before the next frame, because it would show through there.
+/// Without one (on a transparent background), the opaque part of the frame is stored. Players erase
+/// this part before the next frame; otherwise it would show through the next frame's transparent
+/// pixels.
 fn encode_next_frame(
     drawn: &IndexedFrame,
     canvas: Option<&mut GifCanvas>,

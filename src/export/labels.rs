@@ -83,8 +83,8 @@ impl LabelStyle {
     }
 }
 
-/// Returns a text colour that is readable on the given background. On a transparent background it
-/// is a middle grey, which shows on light and on dark.
+/// Returns a text colour that is readable on the given background. For a transparent background,
+/// returns a middle grey, which is readable on light and on dark backgrounds.
 #[must_use]
 pub fn text_colour_on(ground: Option<Rgb>) -> Rgb {
     let grey = |c: u8| Rgb([c; 3]);

@@ -1,7 +1,7 @@
 //! Image layout of a film: aspect ratio, size in pixels, margin, and room for captions.
 //!
-//! Sizes are given by the shorter side, as screens are named: 1080 means 1920 × 1080 for wide
-//! images, 1080 × 1920 for tall ones and 1080 × 1080 for square ones.
+//! Sizes are given by the shorter side, as in the video format 1080p: 1080 means 1920 × 1080 for
+//! wide images, 1080 × 1920 for tall ones and 1080 × 1080 for square ones.
 
 use super::captions::Captions;
 use super::size::{PixelSize, PixelSizeError};
@@ -95,8 +95,8 @@ impl PictureLayout {
         Ok(self.view_of(bounds, self.size(bounds)?))
     }
 
-    /// Returns the view that shows all of `bounds` in an image of another size, with the margin and
-    /// caption space of this layout.
+    /// Returns the view that shows all of `bounds` in an image of the given size, with the margin
+    /// and caption space of this layout. The aspect ratio and `lines` of the layout are ignored.
     #[must_use]
     pub fn view_of(&self, bounds: Bounds, size: PixelSize) -> PlaneView {
         let shorter = size.as_dvec2().min_element();
@@ -117,7 +117,7 @@ impl PictureLayout {
         let Some(ratio) = self.aspect.ratio() else {
             let drawing = bounds.size();
             let ratio = drawing.max_element() / drawing.min_element();
-            // A point or a straight line has no finite ratio.
+            // The bounds of a point, or of a horizontal or vertical line, have no finite ratio.
             let longer = if ratio.is_finite() {
                 ratio.min(MAX_LONGER_SIDE)
             } else {

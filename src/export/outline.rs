@@ -4,8 +4,8 @@
 use crate::geometry::DVec2;
 
 /// Maximum absolute value of a coordinate that is drawn, in pixels (derived: beyond it, the 32-bit
-/// coordinates of rasterisers have no sub-pixel precision). At t far outside [0, 1], films can
-/// leave the image by many orders of magnitude.
+/// coordinates of rasterisers have no sub-pixel precision). At t far outside [0, 1], points can lie
+/// outside the image by many times its size.
 pub const MAX_COORDINATE_PX: f64 = 1.0e7;
 
 /// One path command of an [`OutlinePath`], in pixels, y down.

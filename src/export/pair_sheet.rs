@@ -15,8 +15,8 @@ use super::labels::{ERROR_COLOUR, LabelBox, LabelStyle, text_colour_on};
 use super::size::{MAX_SHEET_SIDE_PX, PixelSize, PixelSizeError};
 use super::view::PlaneView;
 
-/// Sides of a frame that are tried, in pixels, the largest first. The first with which all strips
-/// fit is used (heuristic).
+/// Possible side lengths of a frame, in pixels, the largest first. The largest side with which all
+/// strips fit on the sheet is used (heuristic).
 const CELLS_PX: [f64; 4] = [104.0, 84.0, 64.0, 48.0];
 
 /// Gap between frames and around a strip, in pixels (heuristic).
@@ -100,7 +100,7 @@ impl PairStrip {
     }
 }
 
-/// Arrangement of strips in blocks.
+/// Arrangement of strips in blocks. Each block is a stack of strips, one below the other.
 #[derive(Clone, Copy, Debug)]
 struct PairSheetLayout {
     /// Side of a frame, in pixels.

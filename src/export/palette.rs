@@ -70,7 +70,7 @@ struct ColourBox {
     mean: [f64; 3],
     /// Channel with the largest variance, along which the box is split.
     axis: usize,
-    /// Sum of squared distances to the mean.
+    /// Sum of the squared distances of all pixels in the box from its mean colour, in sRGB values.
     error: f64,
 }
 

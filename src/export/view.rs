@@ -6,7 +6,8 @@ use super::size::PixelSize;
 
 /// Part of the plane that an image, or a cell of a contact sheet, shows.
 ///
-/// The fitted rectangle is entirely visible, centred, and equally scaled in both directions.
+/// The rectangle passed to [`PlaneView::fit`] or [`PlaneView::fit_cell`] is entirely visible,
+/// centred, and equally scaled in both directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneView {
     /// Size of the whole image.
@@ -30,7 +31,8 @@ impl PlaneView {
         let ratio = cell_px / bounds.size();
         let px_per_unit = [ratio.x, ratio.y]
             .into_iter()
-            // A straight line has no extent along one axis, a point along neither.
+            // The bounds of a horizontal or vertical line have no extent along one axis; those of a
+            // point have no extent at all.
             .filter(|r| r.is_finite() && *r > 0.0)
             .reduce(f64::min);
         Self {

@@ -1,8 +1,8 @@
 //! Traces the contours of a function over a picture as closed polygons.
 //!
-//! Marching squares on the lattice of samples (after Lorensen and Cline 1987, in the plane), with
-//! two improvements: crossings are roots of the function itself, not of a line between two samples;
-//! and a saddle (a square whose diagonal corners are on the same side) is resolved by the
+//! Uses marching squares on the lattice of samples (after Lorensen and Cline 1987, in the plane),
+//! with two improvements. Crossings are roots of the function itself, not of a line between two
+//! samples. A saddle (a square whose diagonal corners are on the same side) is resolved by the
 //! function's value at the centre of the square.
 //!
 //! Guaranteed: polygons are closed, outer ones counter-clockwise and holes clockwise (with y up); a
@@ -177,7 +177,8 @@ where
     }
 
     /// Appends the one or two contour segments of the square whose lower left node is (`column`,
-    /// `row`). Corners are ordered counter-clockwise from the lower left, edges from the bottom.
+    /// `row`). `corners` says for each corner whether it is inside. Corners and edges are numbered
+    /// counter-clockwise, corners from the lower left one and edges from the bottom one.
     fn push_square_segments(
         &self,
         column: usize,
@@ -298,8 +299,8 @@ fn chains(segments: &[ContourSegment]) -> Vec<Vec<LatticeEdge>> {
     chains
 }
 
-/// Removes repeated points and points inside straight horizontal or vertical runs. A contour along
-/// the border of the picture has many of the latter.
+/// Removes repeated points and points inside straight horizontal or vertical runs. Such runs occur
+/// where a contour follows the border of the picture.
 fn remove_redundant_points(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.dedup();
     if points.len() > 1 && points.first() == points.last() {

@@ -1,10 +1,10 @@
 //! Signed distance fields of designs: one distance per cell of a grid.
 //!
-//! Guaranteed: values are positive inside, negative outside, and in cells of the grid. Computed
-//! from polygons, they are exact up to rounding; computed from masks, they equal the brute-force
-//! minimum over all cells. Values are interpolated bilinearly between samples, as in the shader
-//! that draws the stage. Not guaranteed: interpolated values are not exact distances; near the
-//! medial axis they are off by up to half the diagonal of a cell.
+//! Guaranteed: values are positive inside and negative outside; their unit is the cell of the grid.
+//! Computed from polygons, they are exact up to rounding; computed from masks, they equal the
+//! brute-force minimum over all cells. Values are interpolated bilinearly between samples, as in
+//! the shader that draws the stage. Not guaranteed: interpolated values are not exact distances;
+//! near the medial axis they are off by up to half the diagonal of a cell.
 
 use super::{
     Grid, GridError, Mask, MaskError, Metric, SampledField, SampledFieldError, distance_transform,

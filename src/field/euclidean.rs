@@ -18,9 +18,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::Mask;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// Number of columns in a strip, the unit of work of one thread in the first pass. Strips are
-/// stored one after the other (resource limit: a strip of a 2048² mask fits into the second-level
-/// cache, and one of its rows takes two cache lines).
+/// Number of columns in a strip, the unit of work of one thread in the first pass. Each strip is
+/// one contiguous block of memory (resource limit: a strip of a 2048² mask fits into the
+/// second-level cache, and one row of the strip takes two cache lines).
 const STRIP: usize = 64;
 
 /// Number of rows in a band, the unit of work of one thread in the second pass. Cancellation is

@@ -120,7 +120,7 @@ impl Grid {
         if !(0.0..=Self::MAX_MARGIN).contains(&margin) {
             return Err(GridError::Margin(margin));
         }
-        // The same margin on all sides, so that flat designs have space above and below, too.
+        // The margin is the same on all sides, so flat designs have space above and below, too.
         let padded = size + DVec2::splat(2.0 * margin * longer);
         let cell = padded.max_element() / f64::from(cells);
         let count = |side: f64| (side / cell - Self::COUNT_SLACK).ceil().max(1.0) as u32;

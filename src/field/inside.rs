@@ -1,8 +1,9 @@
 //! Determines which grid samples are inside a set of polygons, by scanline winding numbers.
 //!
-//! Guaranteed: a row of samples crosses an edge by the same half-open rule as in `Ring::winding`,
-//! so a boundary that crosses a row exactly at a corner is counted once. A sample that is closer to
-//! an edge than rounding errors may be classified either way.
+//! Guaranteed: whether a row of samples crosses an edge is decided by the half-open rule of
+//! `Ring::winding`, so a boundary that crosses a row exactly at a corner is counted once. Not
+//! guaranteed: a sample whose distance from an edge is within rounding errors may be classified
+//! either way.
 
 use rayon::prelude::*;
 
@@ -26,8 +27,8 @@ pub(super) fn lattice_edges(regions: &Regions, grid: &Grid) -> Vec<ScanlineEdge>
 pub(super) fn inside_samples(edges: &[ScanlineEdge], grid: &Grid) -> Vec<bool> {
     let mut steps = vec![0_i32; grid.cells()];
     for &(a, b) in edges {
-        // An edge changes the winding number of the samples to its right by +1 if it rises and by
-        // −1 if it falls.
+        // Counts +1 for the samples to the right of a rising edge and −1 for those to the right of
+        // a falling one. The sum is minus the winding number; its sign does not matter here.
         if a.y <= b.y {
             add_crossings(a, b, 1, grid, &mut steps);
         } else {

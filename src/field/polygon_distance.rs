@@ -32,9 +32,9 @@ const BAND_ROWS: usize = 32;
 /// blocks, pruning edges takes longer than it saves).
 const LEAF_SAMPLES: usize = 16;
 
-/// Margin that is added to the pruning bound, in cells and also as a fraction of the distance
-/// (tolerance: far above 1e-12, the resolution of `f64` at 8192 cells; keeping an edge too many
-/// only costs time).
+/// Margin of the pruning bound: the bound is raised by this many cells plus this fraction of the
+/// distance from the centre of the block to the nearest edge (tolerance: far above 1e-12, the
+/// resolution of `f64` at 8192 cells; keeping an edge too many only costs time).
 const SLACK: f64 = 1e-6;
 
 /// Computes the unsigned distance from each sample of `grid` to the nearest of `edges`, in cells,
@@ -114,8 +114,9 @@ struct PruningBound {
     distance: f64,
     /// Distance from the centre to the outermost samples of the block.
     radius: f64,
-    /// Maximum increase of the difference between the two edges' unit vectors when a point moves
-    /// from the centre to another place in the block: 2 r / (d₀ − r) in the module documentation.
+    /// Maximum change of u − u₀ when a point moves from the centre to another place in the block.
+    /// Here u is the unit vector to the point from any edge, u₀ that from the nearest edge. In the
+    /// module documentation this is 2 r / (d₀ − r).
     max_divergence: f64,
     /// Squared distance from the centre beyond which an edge cannot be nearest to any sample,
     /// whatever its direction.
@@ -236,8 +237,8 @@ impl<'a> SegmentSearch<'a> {
         }
     }
 
-    /// Of the candidates from `bottom` up, pushes those that can be nearest to a point within
-    /// `radius` of `centre` onto the stack again.
+    /// Prunes the candidates on the stack from `bottom` up: pushes a copy of each candidate that
+    /// can be nearest to a point within `radius` of `centre`.
     fn push_near(&mut self, bottom: usize, centre: DVec2, radius: f64) {
         let segments = self.segments;
         let away = self.stack[bottom..]

@@ -107,7 +107,7 @@ impl<'a> SampledField<'a> {
 /// Returns the indices of the two samples around `x`, and the position of `x` between them as a
 /// fraction of the way from the first to the second. `count` is the number of samples.
 fn bracket(x: f64, count: usize) -> (usize, usize, f64) {
-    // In this order NaN becomes 0, because `max` returns the number.
+    // NaN becomes 0 because `max` comes first: of NaN and a number, it returns the number.
     let clamped = x.max(0.0).min((count - 1) as f64);
     let first = clamped as usize;
     (first, (first + 1).min(count - 1), clamped - first as f64)

@@ -1,9 +1,9 @@
 //! Signed distance transforms of masks in four metrics.
 //!
-//! Values are positive inside, negative outside, and in cells. The boundary runs midway between
-//! inside and outside cells, so half a cell is subtracted on each side and no value is 0. The cells
-//! around a mask count as outside: a design that reaches the border of the mask ends there, as its
-//! traced contour does.
+//! Values are positive inside and negative outside; their unit is the cell. The boundary runs
+//! midway between inside and outside cells, so half a cell is subtracted on each side and no value
+//! is 0. The cells around a mask count as outside: a design that reaches the border of the mask
+//! ends there, as its traced contour does.
 //!
 //! Guaranteed: values equal the brute-force minimum over all cells in each metric. Cost: linear in
 //! the number of cells. The Euclidean transform uses the threads of the current rayon pool, the

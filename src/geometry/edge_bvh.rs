@@ -20,9 +20,9 @@ const PADDING: f64 = 1e-9;
 #[derive(Debug)]
 pub(crate) struct EdgeBvh {
     edges: Vec<(DVec2, DVec2)>,
-    /// Binary tree of boxes in depth-first order. A node with more than [`LEAF_EDGES`] edges has
-    /// two children, one for each half of its edges. The box of the first child follows the node
-    /// directly; the number is the index of the box of the second child.
+    /// Binary tree of nodes in depth-first order. A node with more than [`LEAF_EDGES`] edges has
+    /// two children, one for each half of its edges. Each entry holds the box of a node and the
+    /// index of its second child; the first child is the next entry. A leaf's index is unused.
     boxes: Vec<(Bounds, usize)>,
 }
 
@@ -142,7 +142,7 @@ impl Ray {
         let (mut enter, mut leave) = (0.0_f64, nearest);
         for (low, high) in [(low.x, high.x), (low.y, high.y)] {
             // 0 · ∞ is NaN: the ray runs along the line of a side of the box, so this coordinate
-            // does not rule out that it enters.
+            // does not rule out that the ray enters the box.
             if !low.is_nan() && !high.is_nan() {
                 enter = enter.max(low.min(high));
                 leave = leave.min(low.max(high));

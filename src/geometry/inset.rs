@@ -13,7 +13,8 @@ const MIN_TIP_ANGLE: f64 = 0.2;
 const BISECTIONS: u32 = 10;
 
 /// Returns the rings around the part of a region that is farther than `depth` from its boundary;
-/// holes run in the opposite direction to outer rings. Corners stay sharp.
+/// holes run in the opposite direction to outer rings. Corners stay sharp, except those with an
+/// angle below [`MIN_TIP_ANGLE`].
 pub(crate) fn inset(rings: &[Vec<DVec2>], depth: f64) -> Vec<Vec<DVec2>> {
     let contours: Vec<Vec<[f64; 2]>> = rings
         .iter()

@@ -1,5 +1,6 @@
-//! Overshoot of a quantity during a motion: how far it rises above the straight line between its
-//! end values, and how much it goes up and down beyond their difference.
+//! Two measures of the overshoot of a quantity during a motion. The first is how far the quantity
+//! rises above the straight line from its first to its last value. The second is how much it rises
+//! and falls in all, minus the difference of its first and last values.
 
 /// Returns the largest relative excess of samples `[t, value]` over the straight line between the
 /// first and the last value; 0 if none exceeds it. The first sample has t = 0, the last one t = 1.

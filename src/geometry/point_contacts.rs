@@ -7,8 +7,8 @@
 
 use super::{Bounds, DVec2, Region, Regions, Ring, distance_squared_to_segment};
 
-/// Maximum distance at which a corner touches an edge, as a fraction of the regions' diameter
-/// (tolerance: far above the rounding of points that are placed on edges).
+/// Maximum distance at which a corner counts as touching an edge, as a fraction of the regions'
+/// diameter (tolerance: far above the rounding of points that are placed on edges).
 const CONTACT_DISTANCE: f64 = 1e-9;
 
 /// Distance by which a touching corner is moved back, as a fraction of the regions' diameter

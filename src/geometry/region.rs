@@ -89,13 +89,14 @@ pub enum RegionsError {
 }
 
 impl Regions {
-    /// Maximum area of a region or hole that is removed as a sliver, as a fraction of the squared
-    /// size of all rings (tolerance: outlines that touch themselves leave slivers of about 1e-18).
+    /// Maximum area of a region or hole that is removed as a sliver, as a fraction of the square of
+    /// the longer side of all rings' bounding box (tolerance: outlines that touch themselves leave
+    /// slivers of about 1e-18).
     const MIN_RELATIVE_AREA: f64 = 1e-14;
 
-    /// Maximum distance at which a point is merged with the previous one, as a fraction of the size
-    /// of all rings (tolerance: an outline that ends where it began keeps a last edge of about
-    /// 1e-15, which vanishes when the outline is scaled down).
+    /// Maximum distance at which a point is merged with the previous one, as a fraction of the
+    /// longer side of all rings' bounding box (tolerance: an outline that ends where it began keeps
+    /// a last edge of about 1e-15, which vanishes when the outline is scaled down).
     const MIN_RELATIVE_EDGE: f64 = 1e-12;
 
     /// Creates regions from rings. The fill rule resolves self-crossings, overlaps, duplicates and
@@ -172,7 +173,8 @@ impl Regions {
         (!pieces.is_empty()).then_some(Self(pieces))
     }
 
-    /// Returns the regions with the given indices; `None` if no index is that of a region.
+    /// Returns the regions with the given indices, ignoring indices that do not exist. Returns
+    /// `None` if no region remains.
     pub(crate) fn subset(&self, numbers: &[usize]) -> Option<Self> {
         let pieces = numbers.iter().filter_map(|&k| self.0.get(k).cloned());
         let pieces: Vec<Region> = pieces.collect();

@@ -96,8 +96,8 @@ impl Ring {
         })
     }
 
-    /// Returns the winding number of the ring around `p`, counter-clockwise positive; on the
-    /// boundary the answer may be either.
+    /// Returns the winding number of the ring around `p`, counter-clockwise positive. On the
+    /// boundary, the answer may be that of either side.
     #[must_use]
     pub fn winding(&self, p: DVec2) -> i32 {
         winding(&self.0, p)

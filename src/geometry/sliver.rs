@@ -3,8 +3,8 @@
 
 use super::{Bounds, DVec2, Ring, signed_area};
 
-/// Maximum mean thickness of a sliver, as a fraction of the size of all outlines: a tenth of a
-/// pixel in an image 1,000 pixels wide (heuristic).
+/// Maximum mean thickness of a sliver, as a fraction of the longer side of all outlines' bounding
+/// box: a tenth of a pixel in an image 1,000 pixels wide (heuristic).
 const MAX_THICKNESS: f64 = 1e-4;
 
 /// Maximum area of a sliver, as a fraction of the area of each drawn outline near it. Contours that
@@ -20,8 +20,8 @@ pub(super) struct SliverTest {
 }
 
 impl SliverTest {
-    /// Collects the drawn outlines with more than the given area. `extent` is the size of all
-    /// outlines.
+    /// Collects the drawn outlines with more than the given area. `extent` is the longer side of
+    /// all outlines' bounding box.
     pub(super) fn of(rings: &[Vec<DVec2>], extent: f64, area: f64) -> Self {
         let outlines = rings.iter().filter_map(|ring| {
             let ring_area = signed_area(ring).abs();

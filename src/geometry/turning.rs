@@ -1,5 +1,6 @@
 //! Measures the total turning of outlines. This measure distinguishes a jagged shape from a smooth
-//! one of the same area and length. Measures of the distortion of mesh faces do not.
+//! one of the same area and length; measures of the distortion of mesh faces cannot distinguish
+//! these two.
 //!
 //! The turning of a ring is the sum of the absolute values of its exterior angles, which is 2π for
 //! a convex ring. Rings are first sampled evenly, so that corners count but noise finer than the

@@ -13,7 +13,7 @@ use std::path::Path;
 /// to 130 MiB).
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
 
-/// Why a file was not read.
+/// Reason why a file was not read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {

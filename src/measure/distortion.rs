@@ -24,18 +24,21 @@ pub struct Distribution {
 /// undistorted mesh, all values except `folds` are 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distortion {
-    /// Number of faces that are folded or flat (det ≤ 0).
+    /// Number of faces that are folded or flat (signed area ≤ 0).
     pub folds: usize,
     /// Smallest determinant of any face. The determinant of a face is its signed area divided by
     /// its area in the source.
     pub min_det: f64,
     /// Largest determinant of any face.
     pub max_det: f64,
-    /// Distortion of angles, σ₁/σ₂, over the faces.
+    /// Distortion of angles over the faces: σ₁/σ₂, the ratio of the singular values of a face's
+    /// Jacobian.
     pub conformal: Distribution,
-    /// Distortion of lengths, max(σ₁, 1/σ₂), over the faces.
+    /// Distortion of lengths over the faces: max(σ₁, 1/σ₂), where σ₁ ≥ σ₂ are the singular values
+    /// of a face's Jacobian.
     pub isometric: Distribution,
-    /// Distortion of areas, max(det, 1/det), over the faces.
+    /// Distortion of areas over the faces: max(det, 1/det), where det is the determinant of a
+    /// face's Jacobian.
     pub area: Distribution,
 }
 
@@ -124,8 +127,8 @@ impl FaceStrain {
         }
     }
 
-    /// Returns `value`; but infinity if the face is folded, or if `value` is NaN, as 0/0 for a
-    /// collapsed face.
+    /// Returns `value`, or infinity if the face is folded or `value` is NaN. It is NaN (0/0) for a
+    /// face that has collapsed to a point.
     fn or_infinite(&self, value: f64) -> f64 {
         if self.folded || value.is_nan() {
             f64::INFINITY

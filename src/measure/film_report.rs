@@ -36,7 +36,7 @@ pub struct FilmSample {
     /// is absent at this t counts as 2π.
     pub turning: f64,
     /// Total absolute turning of the boundaries of parts that exist in both designs, in radians.
-    /// For a contour, the same as `turning`.
+    /// For the contour of a distance field, the same as `turning`.
     pub turning_of_both: f64,
     /// Number of separate pieces; for a solid, the number of outer boundary loops. `None` for bars.
     pub pieces: Option<usize>,
@@ -99,8 +99,9 @@ pub struct FilmReport {
     /// Total variation of the perimeter over t, minus the absolute difference between the
     /// perimeters at t = 0 and t = 1, as a fraction of the larger of these two perimeters.
     pub perimeter_variation_excess: f64,
-    /// Largest relative excess of `turning` over its value interpolated linearly between the two
-    /// ends. Large if the shape is jagged or wavy in between but at neither end.
+    /// Largest relative excess, over all samples, of `turning` over the straight line from its
+    /// value at t = 0 to its value at t = 1. It is large if the shape is jagged or wavy at some t,
+    /// but neither at t = 0 nor at t = 1.
     pub turning_excess: f64,
     /// As `turning_excess`, for `turning_of_both`. It ignores parts that exist in one design only,
     /// whose turning would change abruptly when they appear.

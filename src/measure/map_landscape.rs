@@ -111,9 +111,9 @@ impl MapLandscape {
         self.interpolated(place, |blend| measure.of(blend))
     }
 
-    /// Returns how many of the grid points around a place have blends with folded faces or crossing
-    /// outlines: a fraction from 0 to 1, weighted bilinearly. Returns 0 where too few grid points
-    /// were measured.
+    /// Returns the fraction, from 0 to 1, of the four grid points around a place whose blends have
+    /// folded faces or crossing outlines. The grid points have bilinear weights. Returns 0 where
+    /// too few grid points were measured.
     #[must_use]
     pub fn defect_fraction(&self, place: DVec2) -> f64 {
         let has_defect = |blend: &BlendMeasures| blend.quality.folds + blend.quality.crossings > 0;

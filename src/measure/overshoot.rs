@@ -1,5 +1,5 @@
-//! Overshoot of a film: how far peaks, counts and face distortions exceed their values at the two
-//! ends (t = 0 and t = 1).
+//! Overshoot of a film between its two ends (t = 0 and t = 1): how far the largest value or count
+//! exceeds the values at the ends, and how far the distortion of faces exceeds that in the target.
 
 use super::distortion::{FaceStrain, edges};
 use crate::compatible::CompatibleMesh;

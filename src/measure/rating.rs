@@ -42,7 +42,8 @@ pub struct FilmRating {
     extra_holes: usize,
     /// Whether the shape disappears completely at some t.
     disappears: bool,
-    /// Excess turning of the outlines plus excess change of area, both as fractions.
+    /// Turning of the outlines plus change of area, beyond what the two ends of the film require,
+    /// both as fractions.
     overshoot: f64,
     is_solid: bool,
 }
@@ -97,8 +98,8 @@ impl FilmRating {
         (self.disappears, self.defects()) < (other.disappears, other.defects())
     }
 
-    /// Returns the excess turning of the outlines plus the excess change of area, both as
-    /// fractions; 0 means no more than the two ends require.
+    /// Returns the turning of the outlines plus the change of area, beyond what the two ends of the
+    /// film (t = 0 and t = 1) require, both as fractions; 0 if there is no excess.
     #[must_use]
     pub fn overshoot(&self) -> f64 {
         self.overshoot

@@ -124,7 +124,7 @@ mod tests {
 
     #[test]
     fn a_squeezed_section_is_located() {
-        // The left half of the lower side is squeezed into an eighth of it.
+        // The left half of the lower side is squeezed into the left eighth of that side.
         let squeeze = |x: f64| {
             if x < 0.5 {
                 x / 4.0

@@ -7,8 +7,8 @@
 //!
 //! Guaranteed: the first vertices are the loops' corners, in order. Faces are counter-clockwise and
 //! fill the piece; the boundary loops of the mesh are the given loops. Invalid input is rejected.
-//! Not guaranteed: that refinement reaches its minimum angle, which is impossible next to sharp
-//! corners and next to long edges of the loops, which it never splits.
+//! Not guaranteed: that refinement reaches its minimum angle. This is impossible next to sharp
+//! corners, and next to long edges of the loops, because refinement never splits these edges.
 
 mod domain;
 mod refine;

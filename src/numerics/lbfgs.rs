@@ -69,7 +69,7 @@ struct CurvaturePair {
     step: Vec<f64>,
     /// Change of the gradient along the step.
     change: Vec<f64>,
-    /// Dot product of step and change.
+    /// Dot product of `step` and `change`.
     product: f64,
     /// Factor by which the preconditioner is multiplied, so that it agrees with the change of the
     /// gradient along this step.

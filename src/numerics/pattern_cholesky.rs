@@ -52,6 +52,7 @@ impl std::fmt::Debug for PatternWorkspace {
 
 impl PatternWorkspace {
     /// Returns the entries of the matrix, to be filled before each solve.
+    /// [`PatternCholesky::new`] returns the index of each entry in this list.
     pub fn entries(&mut self) -> &mut [f64] {
         &mut self.entries
     }

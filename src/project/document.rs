@@ -141,7 +141,7 @@ impl Project {
     /// File extension of projects, without the dot.
     pub const EXTENSION: &'static str = "morph";
 
-    /// Returns whether a path has the extension of projects, in any case.
+    /// Returns whether a path has the extension of project files, in upper or lower case.
     #[must_use]
     pub fn has_document_extension(path: &Path) -> bool {
         path.extension()

@@ -81,7 +81,7 @@ pub enum ProjectError {
     /// The placement of a design is not a valid similarity.
     #[error(transparent)]
     Placement(#[from] SimilarityError),
-    /// ε or the threshold of the field blend is out of range.
+    /// A parameter of the blend of distance fields, ε or the threshold, is not a permitted number.
     #[error(transparent)]
     Blend(#[from] FieldBlendError),
     /// The interval of t in which colours are mixed is invalid.
@@ -148,7 +148,8 @@ impl ProjectError {
         }
     }
 
-    /// Creates the error for an unknown top-level key. `valid` lists all valid keys, in two groups.
+    /// Creates the error for an unknown top-level key. `valid` lists the valid keys: those of the
+    /// project, then those of the transition options.
     pub(super) fn unknown_key(
         text: &str,
         key: &toml::Spanned<Cow<'_, str>>,

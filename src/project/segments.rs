@@ -302,8 +302,9 @@ impl Project {
     /// Makes the film follow a path over the map, or go from design to design if the path is too
     /// short.
     ///
-    /// If this changes the number of segments, the film then covers all segments at its previous
-    /// pace and pauses at each stop of the path or at each design.
+    /// If the number of segments of the path changes (0 without a path), the film then covers all
+    /// segments, keeps its average duration per segment, and pauses at each stop of the path or at
+    /// each design.
     pub fn set_path(&mut self, path: MapPath) {
         let count_before = self.segment_count() as f64;
         let had_path = self.follows_path();
@@ -313,7 +314,8 @@ impl Project {
             return;
         }
         let count_after = self.segment_count() as f64;
-        // A path that was extended or shortened keeps its stops.
+        // If a new path replaces an old one, the stops of the film within the new length are kept.
+        // If the film starts or ceases to follow a path, all of its stops are removed.
         let keeps_stops = had_path && self.follows_path();
         self.stops
             .retain(|stop| keeps_stops && stop.t <= count_after);
@@ -376,7 +378,7 @@ fn moved_stops(
         let old_stop = origins[design]
             .and_then(|origin| old.stops.iter().find(|stop| stop.t == origin as f64));
         let is_inner = t > 0 && t < old_pairs.len();
-        // At the ends, a stop without a name or note has no effect.
+        // At the start and the end of the film, a stop without a name or note has no effect.
         let is_needed =
             |stop: &&TransitionStop| is_inner || !stop.name.is_empty() || !stop.note.is_empty();
         if let Some(stop) = old_stop.filter(is_needed) {

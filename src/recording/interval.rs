@@ -143,8 +143,8 @@ impl RecordingInterval {
     }
 }
 
-/// Evaluation of the vertices in a run of blocks at one s. The code is compiled for several SIMD
-/// widths.
+/// Evaluates the vertices of consecutive blocks at `s`, the fraction of the interval that has
+/// passed. The code is compiled for several SIMD widths.
 struct IntervalSum<'a> {
     interval: &'a RecordingInterval,
     first: usize,
@@ -177,8 +177,8 @@ impl WithSimd for IntervalSum<'_> {
             for (weight, row) in small.iter().zip(narrow_rows) {
                 add(&mut sum, *weight, &row.map(f64::from));
             }
-            // At both ends of the interval the sum is exactly 0, so adding it leaves the end
-            // positions exact.
+            // At both ends of the interval all basis functions are 0. `sum` is then exactly 0, so
+            // the result is exactly the end position.
             let straight = |i: usize| rows[0][i] * (1.0 - s) + rows[1][i] * s;
             for (i, place) in places.iter_mut().enumerate() {
                 let [x, y] = [2 * i, 2 * i + 1].map(|i| straight(i) + sum[i]);

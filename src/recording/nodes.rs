@@ -56,7 +56,7 @@ fn bubble(s: f64) -> f64 {
 
 /// Returns a weight for each of the first `n` nodes, followed by zeros. Consider the polynomial
 /// that is zero at both ends of the interval and has given values at these nodes. Its value at `s`
-/// is the sum of the given values, multiplied by the weights.
+/// is the sum of the given values, each multiplied by the weight of its node.
 pub(super) fn weights(n: usize, s: f64) -> [f64; MAX_NODES] {
     let nodes = nodes();
     let mut weights = [0.0; MAX_NODES];

@@ -2,7 +2,7 @@
 //!
 //! Within a time interval of a recording, every vertex position is a polynomial of s, which runs
 //! from 0 to 1. The following are therefore polynomials of s too: twice the signed area of a face,
-//! and a number whose sign tells on which side of an edge a vertex lies. A polynomial is positive
+//! and a number whose sign shows on which side of an edge a vertex lies. A polynomial is positive
 //! throughout if all its Bernstein coefficients are positive. If they are not, both halves of the
 //! interval are examined, and so on, down to a thousand-millionth of the interval. If nothing folds
 //! or meets, every frame is drawn as it should be.
@@ -99,7 +99,8 @@ impl Recording {
         progress: &dyn Progress,
     ) -> Result<RecordingProof, Cancelled> {
         let mut proof = RecordingProof::default();
-        // If no vertex moves in the frame, every frame equals the designs.
+        // If no vertex moves in the frame, the mesh is the same at every t, so nothing can fold or
+        // meet.
         if !self.0.channels.in_frame {
             return Ok(proof);
         }

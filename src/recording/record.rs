@@ -26,10 +26,10 @@ const SHORTEST_INTERVAL: f64 = 1.0 / 1024.0;
 /// should be equal).
 const SAME_TIME: f64 = 1e-12;
 
-/// To detect the moving channels, the warp is compared with its start once between every two break
-/// times. This number is the time of the comparison, as a fraction of the time between them
-/// (heuristic: at the golden section, even a motion that returns to its start is hardly ever
-/// exactly there).
+/// To detect the channels (position lists) that a warp moves, its placement at t = 0 is compared
+/// with its placement at one time between every two break times. This number is the position of
+/// that time between the break times, as a fraction of their distance (heuristic: at the golden
+/// section, even a motion that returns to its start is hardly ever exactly there).
 const PROBE_FRACTION: f64 = 0.381_966;
 
 /// Fraction of the tolerance that may be used up by the rounding of small coefficients to single
@@ -66,7 +66,7 @@ pub(super) struct RecordedIntervals {
     pub channels: MovingChannels,
     pub intervals: Vec<RecordingInterval>,
     /// Largest measured distance between a vertex in the recording and the same vertex in the warp,
-    /// as a fraction of the diameter of all moving positions at both ends.
+    /// as a fraction of the diameter of the bounding box of all moving vertices at t = 0 and t = 1.
     pub error: f64,
     /// Number of times that the warp was evaluated.
     pub evaluation_count: usize,
@@ -112,8 +112,8 @@ struct WarpRecorder<'a> {
     moving: MovingChannels,
     options: &'a RecordingOptions,
     progress: &'a dyn Progress,
-    /// Diameter of all moving positions at both ends, in units of the plane; the tolerance is a
-    /// fraction of it.
+    /// Diameter of the bounding box of all moving vertices at t = 0 and t = 1, in units of the
+    /// plane; the tolerance is a fraction of it.
     diameter: f64,
     intervals: Vec<RecordingInterval>,
     /// Largest distance so far between a vertex in the recording and the same vertex in the warp,
@@ -124,8 +124,8 @@ struct WarpRecorder<'a> {
 
 impl<'a> WarpRecorder<'a> {
     /// Prepares a recording: detects which channels (position lists of a placement) the warp moves,
-    /// and measures the diameter of all moving positions at both ends. `breaks` contains the
-    /// break times of the warp in ascending order, followed by 1.
+    /// and measures the diameter of the bounding box of all moving vertices at t = 0 and t = 1.
+    /// `breaks` contains the break times of the warp in ascending order, followed by 1.
     fn new(
         warp: &dyn Warp,
         breaks: &[f64],
@@ -252,10 +252,10 @@ impl<'a> WarpRecorder<'a> {
         Ok(())
     }
 
-    /// Stores the polynomials through the samples as an interval. Trailing coefficients that are
-    /// small enough are omitted. Of the coefficients that remain, the small ones at the end are
-    /// stored in single precision, the others in double precision. `off` is the measured error of
-    /// the polynomials.
+    /// Stores as an interval the polynomials through `samples`, the deviations from the straight
+    /// line at the first nodes. Trailing coefficients that are small enough are omitted. Of the
+    /// coefficients that remain, the small ones at the end are stored in single precision, the
+    /// others in double precision. `off` is the measured error of the polynomials.
     ///
     /// # Errors
     /// [`RecordingError`] if the interval exceeds the memory limit or the work is cancelled.
@@ -309,8 +309,8 @@ fn will_converge(node_count: usize, off: f64, previous_off: f64, tolerance: f64)
         return false;
     }
     let pairs_needed = (tolerance / off).ln() / shrink_factor.ln();
-    // Convergence usually accelerates, so `pairs_needed` is too high. Each pair is therefore
-    // counted as one node and not as two.
+    // Convergence usually accelerates, so fewer pairs than `pairs_needed` suffice. The estimate
+    // therefore adds one node for each pair, although a pair has two nodes.
     node_count as f64 + pairs_needed <= MAX_NODES as f64
 }
 
@@ -333,8 +333,8 @@ fn places(placer: &mut Placer, moving: MovingChannels, t: f64) -> PositionBlocks
     places
 }
 
-/// Returns the deviation of the positions at `s` from the straight line between the positions at
-/// both ends.
+/// Returns the deviation of the positions `places` at `s` from the straight line between the
+/// positions at both ends of the interval. `s` is the fraction of the interval that has passed.
 fn deviation(
     mut places: PositionBlocks,
     [begin, end]: [&PositionBlocks; 2],
@@ -349,8 +349,8 @@ fn deviation(
     places
 }
 
-/// Returns the largest distance between the measured deviation at `s` and the polynomial through
-/// the samples.
+/// Returns the largest distance between the deviation `measured` at `s` and the polynomial at `s`.
+/// The polynomial passes through `samples`, the deviations at the first nodes.
 fn residual(samples: &[PositionBlocks], measured: &PositionBlocks, s: f64) -> f64 {
     let weights = weights(samples.len(), s);
     let off = |block: usize| {
@@ -375,8 +375,8 @@ fn max_length(row: &BlockRow) -> f64 {
     squares.map(finite).fold(0.0, f64::max).sqrt()
 }
 
-/// Returns the coefficients of the polynomials through the samples, block by block; each block has
-/// one row for each coefficient.
+/// Returns the coefficients of the polynomials through `samples`, the deviations at the first
+/// nodes. They are ordered block by block; each block has one row for each coefficient.
 fn coefficients(samples: &[PositionBlocks]) -> Vec<BlockRow> {
     let n = samples.len();
     let rows = coefficients_from_values(n);

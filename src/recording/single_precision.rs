@@ -29,10 +29,13 @@ pub(crate) struct SinglePrecisionInterval {
     pub numbers: Vec<[f32; 2]>,
 }
 
-/// Weights with which the rows of an interval are summed at one t.
+/// Weights of the rows of an interval at one t. A row contains one vector for each vertex; the
+/// position of a vertex at t is the sum of its vectors, each multiplied by the weight of its row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct IntervalWeights {
-    /// Fractions of the interval before t and after t; their sum is 1.
+    /// Fractions of the interval before t and after t; their sum is 1. The first one is the weight
+    /// of the position at the end of the interval, the second one that of the position at its
+    /// beginning.
     pub shares: [f32; 2],
     /// Weight of each row of coefficients.
     pub coefficients: [f32; MAX_NODES],
@@ -56,8 +59,8 @@ impl Recording {
         (0..count).map(move |interval| recording.0.convert_interval(interval, vertices, origin))
     }
 
-    /// Returns the index of the time interval that contains `t`, and the weights of its rows at
-    /// `t`; `None` outside [0, 1].
+    /// Returns the index of the time interval that contains `t`, and the weights with which the
+    /// rows of this interval are summed at `t`; `None` outside [0, 1].
     pub(crate) fn weights(&self, t: f64) -> Option<(usize, IntervalWeights)> {
         let is_within = (0.0..=1.0).contains(&t);
         is_within.then(|| {

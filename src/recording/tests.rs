@@ -43,8 +43,8 @@ fn recorded(warp: impl Warp + 'static) -> (Recording, Arc<dyn Warp>) {
     (recording.expect("a recording"), warp)
 }
 
-/// Returns the largest distance between a vertex in the recording and in the warp, as a fraction of
-/// the diameter of the positions at both ends.
+/// Returns the largest distance between a vertex in the recording and the same vertex in the warp,
+/// at 201 times. It is a fraction of the diameter of all vertex positions in source and target.
 fn off(recording: &dyn Warp, warp: &dyn Warp) -> f64 {
     let [mut recording, mut warp] = [recording.placer(), warp.placer()];
     let ends = recording

@@ -24,7 +24,7 @@ impl WeightMap {
     /// Creates the map of designs that lie at the given sites.
     ///
     /// # Errors
-    /// [`SitesError`] if there is no site or two of them coincide.
+    /// [`SitesError`] if there is no site, a coordinate is not finite, or two sites coincide.
     pub fn new(sites: &[DVec2]) -> Result<Self, SitesError> {
         let neighbours = NaturalNeighbours::new(sites)?;
         let bounds = Bounds::of(sites.iter().copied()).ok_or(SitesError::None)?;

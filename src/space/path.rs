@@ -84,7 +84,8 @@ pub struct MapCurve {
 struct CurveSpan {
     /// Coefficients of 1, u, u² and u³ of the position, for u in [0, 1].
     cubic: [DVec2; 4],
-    /// Exact position at u = 1. Without it, a rounding error could miss the site of a design.
+    /// Exact position at u = 1. If it were computed from `cubic`, a rounding error could make the
+    /// curve miss the site of a design.
     end: DVec2,
     /// Arc length from u = 0 to each of the evenly spaced u = k / [`STEPS`].
     lengths: [f64; STEPS + 1],
@@ -250,8 +251,8 @@ fn cubic(places: &[DVec2], k: usize) -> [DVec2; 4] {
         (gap(before, from), gap(from, to), gap(to, after));
     let chord = to - from;
     let tangent = |other: DVec2, gap: f64| match interval > 0.0 && gap > 0.0 {
-        // Mean of the slopes of both intervals, weighted towards the shorter interval and scaled to
-        // the parameter of this span.
+        // Mean of the slopes of this span and the neighbouring one, weighted towards the shorter
+        // knot interval, and scaled to the parameter of this span, which runs from 0 to 1.
         true => (chord * gap / interval + other * interval / gap) * (interval / (interval + gap)),
         false => chord,
     };

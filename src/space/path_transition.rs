@@ -20,9 +20,10 @@ use crate::work::budget::WorkloadKind;
 use crate::work::progress::{Progress, check_cancelled};
 use std::sync::Arc;
 
-/// Number of pieces into which a segment of distance fields is divided; within a piece the weights
-/// are linear (resource limit: each piece stores a field; on random curves over a map of six
-/// designs, these weights differ from the smooth ones by at most 0.05).
+/// For distance fields: number of equal intervals of t into which a segment of a path is divided.
+/// Within an interval the weights are linear (resource limit: each interval stores a field; on
+/// random curves over a map of six designs, these weights differ from the smooth ones by at most
+/// 0.05).
 pub(super) const FIELD_PIECES: usize = 32;
 
 /// Number of steps in which a segment is sampled to find its bounding box (heuristic).
@@ -50,10 +51,6 @@ impl DesignSpace {
     /// # Errors
     /// [`SpaceError`] if there is no such segment, if the map does not have one site per design, if
     /// the distance fields of all segments need too much memory, or if the work was cancelled.
-    #[expect(
-        clippy::too_many_lines,
-        reason = "one list; longer names wrap its lines"
-    )]
     pub fn segment(
         &self,
         map: &WeightMap,
@@ -97,8 +94,8 @@ impl DesignSpace {
                 bars,
             } => {
                 let warp = AlongBlend::new(blend.clone(), weights);
-                ends.bounds =
-                    swept_bounds(&warp, if bars.is_empty() { 0.0 } else { ends.bar_width });
+                let width = if bars.is_empty() { 0.0 } else { ends.bar_width };
+                ends.bounds = swept_bounds(&warp, width);
                 Transition::along_blend(ends, warp, self.solid_content(boundary_loops, bars))
             }
             BlendContent::Field(set) => {
@@ -109,9 +106,8 @@ impl DesignSpace {
                 Transition::through_fields(ends, fields_along(set, weights_at))
             }
             BlendContent::Colours(pictures) => {
-                let weights = [weights_at(0.0), weights_at(1.0)];
-                let [from, to] = &weights;
-                pictures.transition_between(ends.designs, [from, to], progress)?
+                let [from, to] = [weights_at(0.0), weights_at(1.0)];
+                pictures.transition_between(ends.designs, [&from, &to], progress)?
             }
         })
     }

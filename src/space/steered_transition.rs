@@ -1,5 +1,5 @@
-//! A transition that shows any blend of a design space, with weights set from outside. The stage
-//! uses it because its entities show transitions, not spaces.
+//! A transition that shows any blend of a design space, with weights set from outside. The stage, a
+//! Bevy plugin, uses it because entities of the plugin show transitions, not design spaces.
 
 use super::blend::{BlendContent, DesignSpace};
 use crate::transition::{BlendEnds, Transition};

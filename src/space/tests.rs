@@ -1,4 +1,5 @@
-//! Tests of design spaces: corners, order of designs, content, paths, and errors.
+//! Tests of design spaces: blends with weight 1 on one design, order of designs, content, paths,
+//! and errors.
 
 use super::*;
 use crate::content::ContentKind;
@@ -142,7 +143,7 @@ fn designs_without_a_common_mesh_are_blended_as_fields() {
     };
     let error = DesignSpace::build(&spec, &Silent).expect_err("no common mesh");
     assert!(matches!(error, SpaceError::NoCommonMesh(_)), "{error}");
-    // The two frames by themselves have a common mesh.
+    // Two squares with a hole have a common mesh if there is no other design.
     let frames = space(vec![frame("thin", 2.5), frame("thick", 1.0)]);
     assert!(frames.family().is_some());
 }
@@ -277,7 +278,7 @@ fn a_path_shows_the_blends_along_it() {
     let [first, last] = [&film.segments()[0], &film.segments()[1]];
     assert_eq!(first.designs()[0].name, "a");
     assert_eq!(last.designs()[1].name, "c");
-    // The stop between the two ends is named after the designs with the largest weights.
+    // The middle stop of the path is named after the designs with the largest weights.
     assert!(
         first.designs()[1].name.contains('%'),
         "{}",

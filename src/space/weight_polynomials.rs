@@ -47,7 +47,8 @@ impl WeightPolynomials {
                 weights.copy_from_slice(node_weights);
                 return;
             }
-            // Barycentric weights of Chebyshev nodes alternate in sign and are halved at the ends.
+            // Barycentric weights of Chebyshev nodes alternate in sign. The weights of the first
+            // and the last node are halved.
             let half = if k % (NODES - 1) == 0 { 0.5 } else { 1.0 };
             let sign = if k % 2 == 0 { half } else { -half };
             let coefficient = sign / gap;

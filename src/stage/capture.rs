@@ -55,8 +55,8 @@ pub struct StageCaptured {
 #[derive(Resource, Default)]
 pub(super) struct PendingCaptures(Vec<CaptureTarget>);
 
-/// A capture in progress: the off-screen camera, the image into which it renders, and, once the
-/// shaders are ready, the screenshot of the image with its t.
+/// A capture in progress: the off-screen camera and the image into which the camera renders. Once
+/// the shaders are ready, also the screenshot of the image and the t that the screenshot shows.
 struct CaptureTarget {
     id: u64,
     camera: Entity,

@@ -101,8 +101,9 @@ impl AssetLoader for DesignLoader {
 #[require(Blend, BlendWeights, StageStyle, Transform, Visibility)]
 pub struct MorphDesigns(pub Vec<Handle<DesignAsset>>);
 
-/// Starts a build for each entity whose designs are all loaded and at least one of which is new.
-/// Triggers [`BuildFailed`] for each design of an entity that cannot be loaded.
+/// Starts a build for each entity whose designs are all loaded, if its [`MorphDesigns`] changed or
+/// one of its designs was loaded or reloaded. Triggers [`BuildFailed`] for each design of an entity
+/// that cannot be loaded.
 pub(super) fn start_designs(
     mut commands: Commands,
     assets: Res<Assets<DesignAsset>>,

@@ -50,7 +50,7 @@ pub(super) struct FieldMaterial {
     nodes: Vec<Handle<Image>>,
 }
 
-/// Properties of a field and its style, each of which selects a shader variant.
+/// Properties of a field blend and its style that together select the shader variant.
 ///
 /// The shader does not branch on uniforms instead, because some drivers compile a new shader
 /// whenever a uniform changes, and t changes in each frame. Mesa's lavapipe 22.3 also kept all

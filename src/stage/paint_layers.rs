@@ -17,9 +17,9 @@ use super::vertices::write_points;
 /// State of the render mesh of a solid or of distance fields with paint layers.
 #[derive(Clone, Debug)]
 pub(super) struct LayerMesh {
-    /// Faces of the placement, by layer. They do not change from frame to frame. `None` if the
-    /// faces cannot represent the layers (for example with transient parts or holes), so that the
-    /// rings of the layers are triangulated anew in each frame.
+    /// Faces of the placement, by layer; they do not change from frame to frame. `None` for
+    /// distance fields, and for solids whose faces cannot represent the layers (for example with
+    /// transient parts or holes). The rings of the layers are then triangulated anew in each frame.
     faces: Option<LayerFaces>,
     /// Gradients of the frame that was written last.
     gradients: Box<GradientUniform>,
@@ -56,8 +56,8 @@ impl LayerMesh {
 
     /// Returns the state for a solid with the paint layers in `stack`.
     pub(super) fn of_solid(frame: &Frame, solid: &SolidContent, stack: &PaintLayerStack) -> Self {
-        // Faces cannot represent transient parts and holes, parts with their own times, or layers
-        // whose rings differ in paint.
+        // Faces cannot represent transient parts and holes, nor layers in which the paint differs
+        // between rings, because parts have their own times or fade in or out.
         let has_transients = !solid.holes.is_empty()
             || !solid.swelling_shapes.is_empty()
             || solid.part_clocks.is_some()
@@ -139,8 +139,8 @@ impl LayerMesh {
 
 impl LayerFaces {
     /// Assigns the faces and vertices of the placement to layers. `components` contains, for each
-    /// vertex, the index of the connected component of the mesh to which the vertex belongs. All of
-    /// a component belongs to the layer of its boundary loops.
+    /// vertex, the index of the connected component of the mesh to which the vertex belongs. All
+    /// faces and vertices of a component belong to the layer of the component's boundary loops.
     fn new(
         frame: &Frame,
         solid: &SolidContent,

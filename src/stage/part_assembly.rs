@@ -28,7 +28,7 @@ use super::uploaded_recording::UploadState;
 use super::vertices::{BarShapes, OutlineSegments, corner_coordinates, quad_indices};
 use super::warp_grid::GridMaterial;
 
-/// Marks an entity whose transition is new, so that its render parts are not spawned yet.
+/// Marks an entity whose transition is new and whose render parts have not been spawned yet.
 #[derive(Component)]
 pub(super) struct WithoutParts;
 

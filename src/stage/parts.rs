@@ -60,9 +60,9 @@ pub(super) enum PartKind {
     Field,
     /// Cross-dissolved pictures.
     Picture,
-    /// Bars of a truss that share their paints.
+    /// All bars of a truss that have the same paints, with the discs at their ends.
     Bars(BarShapes),
-    /// Lighter cores of the joints of these bars.
+    /// Lighter cores of the joints of all bars that have the same paints.
     JointCores(BarShapes),
     /// Edges of the triangulation.
     Wire {

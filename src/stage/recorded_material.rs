@@ -38,8 +38,8 @@ pub(super) struct RecordedMaterial {
     pub(super) colour: LinearRgba,
     #[uniform(3)]
     pub(super) sum: RecordedSum,
-    /// Recorded interval, as rows with one entry per vertex: the positions at both ends, then the
-    /// polynomial coefficients.
+    /// Recorded interval, as rows with one entry per vertex: the positions at the beginning of the
+    /// interval, those at its end, then the polynomial coefficients.
     #[storage(4, read_only, buffer, visibility(vertex))]
     pub(super) reel: Buffer,
     pub(super) kind: InkKind,

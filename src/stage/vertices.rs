@@ -72,8 +72,8 @@ pub(super) fn quad_indices(quads: usize) -> Vec<u32> {
     (0..quads as u32).flat_map(corners).collect()
 }
 
-/// Bars that share their paints, and the discs at their ends. Their mesh has a quad for each bar,
-/// then a quad for the disc at each node, by ascending index of the node.
+/// All bars that have the same paints, and the discs at their ends. The mesh has a quad for each
+/// bar, followed by a quad for the disc at each node, in ascending order of the node indices.
 #[derive(Clone, Debug)]
 pub(super) struct BarShapes {
     /// Paints of the bars in the source and in the target; `None` is the colour of the style.
@@ -120,8 +120,8 @@ impl BarShapes {
         out
     }
 
-    /// Returns the same as [`Self::coordinates`], for the vertices that [`Self::write_cores`]
-    /// writes.
+    /// Returns, for each vertex that [`Self::write_cores`] writes, its position relative to the
+    /// centre of the core, in units of the core's radius.
     pub(super) fn core_coordinates(&self) -> Vec<[f32; 2]> {
         disc_coordinates(self.nodes.len())
     }
@@ -190,10 +190,11 @@ fn disc_coordinates(discs: usize) -> Vec<[f32; 2]> {
 /// visible where anti-aliased edges are drawn twice.
 #[derive(Clone, Debug, Default)]
 pub(super) struct OutlineSegments {
-    /// For each corner of a quad: the end of the segment to which it belongs.
+    /// For each corner of a quad: the position of the segment's end at which the corner lies before
+    /// the segment is widened.
     pub(super) positions: Vec<[f32; 3]>,
-    /// For each corner of a quad: its offset from its end of the segment in half line widths
-    /// (x, y), and the side of the segment on which it lies, −1 or 1.
+    /// For each corner of a quad: its offset (x, y) from the nearer end of the segment, in half
+    /// line widths, and the side of the segment on which the corner lies, −1 or 1.
     pub(super) offsets: Vec<[f32; 3]>,
 }
 
@@ -246,9 +247,9 @@ impl OutlineSegments {
     }
 }
 
-/// Returns the offset from a corner of an outline to its mitre point, whose distance from both
-/// edges is 1. `a` and `b` are the unit normals of the edges. Offsets longer than [`MITRE_LIMIT`]
-/// are shortened.
+/// Returns the offset from a corner of an outline to its mitre point, in half line widths: the
+/// point has the distance 1 from both edges. `a` and `b` are the unit normals of the edges. Offsets
+/// longer than [`MITRE_LIMIT`] are shortened.
 fn mitre(a: DVec2, b: DVec2) -> DVec2 {
     let sum = a + b;
     let length = (2.0 / sum.length()).min(MITRE_LIMIT);
@@ -328,7 +329,7 @@ mod tests {
         let segments = OutlineSegments::of(&figure, DVec2::ZERO);
         assert_eq!(segments.quads(), 3);
         assert_eq!(segments.positions[10], [0.0, 0.0, 0.0]);
-        // The mitre of the right angle is a diagonal, and both segments have it as a corner.
+        // At the right angle, the mitre is diagonal; the quads of both segments end at it.
         assert_eq!(segments.offsets[1], [1.0, 1.0, 1.0]);
         assert_eq!(segments.offsets[11], segments.offsets[1]);
     }

@@ -3,8 +3,9 @@
 //!
 //! Guaranteed: no part is missing from the first frame of a transition. Without warm-up, a part
 //! would be missing until its pipeline is compiled, and the stage would flicker whenever a
-//! transition of a new kind replaces another. Not guaranteed: distance fields with lines or signed
-//! colours, and pictures; the stage flickers when one of these is first shown.
+//! transition of a new kind replaces another. Not guaranteed: pictures, and distance fields that
+//! are blended on the linear scale or shown with lines or signed colours; the stage flickers when
+//! one of these is first shown.
 
 use bevy::camera::visibility::NoFrustumCulling;
 use bevy::mesh::{Indices, PrimitiveTopology};
@@ -53,7 +54,7 @@ fn with_numbers(mesh: Mesh) -> Mesh {
 }
 
 /// Spawns an invisible triangle for each pipeline. The triangles are not despawned: they cost
-/// nothing to draw, and another camera needs its own pipelines.
+/// nothing to draw, and Bevy also compiles the pipelines for cameras that are added later.
 pub(super) fn warm_up_pipelines(
     mut commands: Commands,
     mut paints: StagePaints,

@@ -85,8 +85,9 @@ fn bernstein(a: f64, b: f64, s: f64) -> f64 {
     s * (3.0 * r * (r * a + s * b) + s * s)
 }
 
-/// Returns the parameter at which the Bézier polynomial with the control values 0, `a`, `b` and 1,
-/// which is non-decreasing, has the value `value`; by bisection.
+/// Returns the parameter at which the Bézier polynomial with the control values 0, `a`, `b` and 1
+/// has the value `value`, by bisection. With `a` and `b` in [0, 1] the polynomial is
+/// non-decreasing.
 fn parameter(a: f64, b: f64, value: f64) -> f64 {
     if value <= 0.0 {
         return 0.0;

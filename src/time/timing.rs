@@ -44,8 +44,8 @@ pub struct TransitionStop {
     /// Easing from this stop to the next one in ascending t; `None` uses that of the [`Timing`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub easing: Option<EasingFunction>,
-    /// Duration in seconds from this stop to the next one in ascending t, positive. `None` uses the
-    /// fraction of the pass that corresponds to the length in t.
+    /// Duration in seconds from this stop to the next one in ascending t, positive. `None` gives
+    /// the segment a share of the pass's duration in proportion to its length in t.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_secs: Option<f64>,
     /// Pause at this stop in seconds, not negative. If the stop is at an end of a pass, the longer
@@ -96,7 +96,7 @@ pub struct Timing {
     /// Duration of a pass in seconds without pauses, positive. A segment with a duration of its own
     /// takes that time instead of its share.
     pub duration_secs: f64,
-    /// Easing of every segment whose lower stop does not set one.
+    /// Easing of all segments, except those whose stop at the smaller t sets its own.
     pub easing: EasingFunction,
     /// Pause at each end of a pass in seconds, not negative.
     pub hold_secs: f64,
@@ -210,8 +210,8 @@ impl Timing {
     }
 
     /// Returns the time in seconds at which a pass reaches `t`: the inverse of [`Self::t_at`]. If
-    /// the pass pauses at `t`, the result is the time at which the pause begins. At the beginning
-    /// of the pass, it is the time at which the pause ends.
+    /// the pass pauses at `t`, the result is the time at which the pause begins, except for the
+    /// pause at the beginning of the pass: there it is the time at which the pause ends.
     #[must_use]
     pub fn secs_at(&self, t: f64, stops: &[TransitionStop]) -> f64 {
         let sign = (self.to - self.from).signum();
@@ -370,8 +370,8 @@ mod tests {
             to: 0.0,
             ..timing
         };
-        // In the backward pass, the curve still applies from the beginning of the segment in the
-        // direction of playing.
+        // In a pass from t = 1 to t = 0, the easing curve starts at the end of the segment that the
+        // pass reaches first, here at t = 1.
         assert!(down.t_at(0.25, &stops) > 0.9);
         assert_eq!(down.t_at(0.75, &stops), 0.25);
     }

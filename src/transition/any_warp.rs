@@ -15,15 +15,15 @@ pub(super) enum AnyWarp {
     Identity(IdentityWarp),
     /// Only boundary points move.
     Paths(Arc<BoundaryPaths>),
-    /// Rigid parts of solids, or of the whole frame.
+    /// Rigidity-preserving motion of solid designs, or of a mesh of the whole plane.
     Rigid(Arap),
     /// Rigid parts of solids, some of which have their own timing.
     Staggered(StaggeredArap),
-    /// Rigid parts of the frame, relative to a common rigid motion.
+    /// Rigidity-preserving motion of a mesh of the whole plane, relative to a common rigid motion.
     RigidElastic(RigidElasticWarp<Arap>),
     /// Rigid parts that move from one blend of many designs to another.
     Blend(AlongBlend),
-    /// Lines, scattered points or lattices, evaluated on a grid of the plane.
+    /// Warp of the plane by lines, scattered points or a lattice, evaluated on a grid.
     Plane(Arc<dyn Warp>),
 }
 

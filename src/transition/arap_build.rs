@@ -1,5 +1,5 @@
-//! Builds rigid interpolations after checking the size of their mesh, and returns the options with
-//! which they are built before subdivision.
+//! Builds rigidity-preserving interpolations after checking the size of their mesh, and turns the
+//! requested options into those for the search, in which the mesh is not subdivided.
 
 use super::error::BuildError;
 use crate::compatible::CompatibleMesh;
@@ -38,9 +38,9 @@ pub(super) fn check_size(
 /// Returns the options with which matches are searched and solved.
 ///
 /// Subdivision is turned off: a finer mesh moves almost identically but takes several times as
-/// long. The path of the whole design is the default one, because a requested anchor may be a
-/// vertex that only the subdivided mesh has. This path does not affect the motion within the
-/// design.
+/// long. The option `path`, which determines how the design as a whole travels, is reset to its
+/// default, because a requested anchor may be a vertex that only the subdivided mesh has. That
+/// option does not affect how the parts of the design move relative to each other.
 pub(super) fn without_subdivision(requested: &ArapOptions) -> ArapOptions {
     ArapOptions {
         subdivisions: 0,

@@ -65,7 +65,8 @@ pub(super) fn build_boundary_paths(
     Ok((built, solid))
 }
 
-/// The pairs of rings of each part. If outlines were matched, also the drawings and their match.
+/// Result of matching boundaries: for each part, its pairs of rings; and, if outlines were matched,
+/// the drawings and their match.
 type MatchedBoundaries = (Vec<Vec<RingPair>>, Option<(DrawingPair, RegionMatch)>);
 
 /// Matches the outlines of two designs.

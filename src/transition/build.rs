@@ -63,7 +63,7 @@ fn build_named(
     })
 }
 
-/// Builds the data of a transition.
+/// Builds the data of a transition; errors do not name the designs.
 fn build_data(
     spec: &TransitionSpec,
     progress: &dyn Progress,
@@ -138,7 +138,7 @@ fn solids(
     Ok((built, Content::Solid(solid), bounds.padded(bar_margin)))
 }
 
-/// Builds distance fields, the warp that carries them, and the box around all frames.
+/// Builds distance fields, the warp of the plane that moves them, and the box around all frames.
 fn fields(
     spec: &TransitionSpec,
     bar_width: f64,
@@ -150,7 +150,7 @@ fn fields(
     WorkloadKind::Cells.check(grid.cells(), progress)?;
     let span = |from, to| ProgressSpan::new(progress, from, to);
     let whole = super::distance_fields::whole_fields(spec, grid, bar_width, &span(0.0, 0.4))?;
-    // The margin of the grid is included, because carried fields are evaluated there too.
+    // The warp also covers the margin of the grid, because moving fields are evaluated there too.
     let mut built = plane::build_plane_warp(spec, &grid.bounds(), bar_width, &span(0.7, 1.0))?;
     let placer = built.warp.as_warp().placer();
     let (painted, note) = super::distance_fields::painted_fields(
@@ -178,7 +178,7 @@ fn fields(
     Ok((built, Content::Field(fields), bounds))
 }
 
-/// Builds a pair of pictures, the warp that carries them, and the box around all frames.
+/// Builds a pair of pictures, the warp of the plane that moves them, and the box around all frames.
 fn colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<BuiltParts, BuildError> {
     checkpoint(progress, "reading colours", 0.0)?;
     let picture = |design: &Design| {
@@ -194,8 +194,8 @@ fn colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<BuiltParts,
     Ok((built, Content::Colours(pair), bounds))
 }
 
-/// Returns the box around `ends` and several frames between them, because a part that swings may
-/// leave the box around the ends.
+/// Returns the box around all frames, found by sampling. `ends` is the box around both designs; a
+/// part that swings may leave this box during the motion.
 fn swept(
     ends: Bounds,
     warp: &dyn Warp,

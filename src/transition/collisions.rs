@@ -1,9 +1,9 @@
-//! Finds the pieces that collide during the motion, and a small set of pieces whose removal
-//! resolves all collisions.
+//! Finds the pieces (connected parts of the match of two designs) that collide during the motion,
+//! and a small set of pieces whose removal resolves all collisions.
 //!
 //! The motion is sampled at a few times; collisions between two samples are missed. The set is a
 //! vertex cover of the colliding pairs. It is found greedily, starting with the piece that has the
-//! most collisions per area (Chvátal 1979). It is small, but not always the smallest.
+//! most collisions per area (Chvátal 1979). The set is small, but not always the smallest possible.
 
 use super::transients::boundary_loops::SharedPartLoops;
 use super::transients::holes::PieceHole;

@@ -54,7 +54,7 @@ pub fn frame_similarity(
     fit: DesignFit,
     place: Similarity,
 ) -> Result<Similarity, SimilarityError> {
-    // Uses the box around the form, because the margins of pictures are meaningless.
+    // The centre is that of the geometry, not that of the picture, whose margins are meaningless.
     let to_centre = form_centre(first) - form_centre(design);
     let fitted = match fit {
         DesignFit::AsDrawn => Similarity {
@@ -117,7 +117,7 @@ fn transformed(design: &Arc<Design>, by: Similarity) -> Arc<Design> {
     }
 }
 
-/// Returns the box around the form itself, not around its picture.
+/// Returns the box around a design's geometry (outline, mesh or truss), not around its picture.
 pub(super) fn extent(design: &Design) -> Bounds {
     match &design.form {
         DesignForm::Outline(regions) => regions.bounds(),

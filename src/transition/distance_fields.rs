@@ -1,5 +1,5 @@
-//! Computes the distance fields of two designs: those of the whole designs, and those of each
-//! paint.
+//! Computes the distance fields of two designs: one field of each whole design, and fields of the
+//! parts on each paint layer, so that drawings can be shown in their own colours.
 
 use super::drawing_pair::DrawingPair;
 use super::error::BuildError;
@@ -41,16 +41,17 @@ pub(super) fn whole_fields(
     Ok(FieldPair::new(source, target, spec.options.field.blend)?)
 }
 
-/// Distance fields of each paint, if the designs are shown in their own paint, and a note if these
-/// fields could not be computed.
+/// Distance fields of each paint layer, if the designs are shown in their own colours; and a note,
+/// if they are shown in one colour instead because they have too many layers or parts.
 type PaintedFieldsResult = (Option<PaintedFields>, Option<TransitionNote>);
 
-/// Computes the distance fields of each paint, if the drawings are shown in their own paint. Parts
-/// are paired as for rigid parts. Gradients move with the vertices of `frame`.
+/// Computes the distance fields of each paint layer, if the drawings are shown in their own
+/// colours. Parts are paired as for rigid parts. Gradients move with the vertices of `frame`, the
+/// placement of the warp that moves the fields.
 ///
 /// # Errors
 /// If outlines or fields cannot be computed, or the work is cancelled. Drawings with too many
-/// paints or parts are not an error, but a note.
+/// layers or parts are not an error, but a note.
 pub(super) fn painted_fields(
     spec: &TransitionSpec,
     grid: &Grid,

@@ -81,8 +81,9 @@ const AUTOMATIC_NAMES: [&str; 12] = [
     "group", "g",
 ];
 
-/// Returns `name` if the author chose it. Automatic names contain digits or are the kind of a
-/// shape. They become empty, because they have no meaning in another drawing.
+/// Returns `name` if the author chose it, otherwise an empty string. A name counts as automatic if
+/// it contains a digit or is one of [`AUTOMATIC_NAMES`]; such names have no meaning in another
+/// drawing.
 fn author_name(name: &str) -> String {
     let is_counted = name.contains(|c: char| c.is_ascii_digit());
     let is_kind = AUTOMATIC_NAMES.contains(&name.to_ascii_lowercase().as_str());

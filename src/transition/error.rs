@@ -47,7 +47,7 @@ pub enum BuildError {
     /// A design has no outline.
     #[error(transparent)]
     Outline(#[from] RegionsError),
-    /// The frame could not be covered by a grid.
+    /// The box around the designs could not be covered by a grid for distance fields.
     #[error(transparent)]
     Grid(#[from] GridError),
     /// A distance field could not be computed.
@@ -58,13 +58,14 @@ pub enum BuildError {
         /// The underlying error.
         error: FieldError,
     },
-    /// An option of the blend of distance fields, ε or the threshold, is out of range.
+    /// An option of the blend of distance fields is out of range: the parameter ε of the
+    /// logarithmic scale, or the threshold.
     #[error(transparent)]
     Blend(#[from] FieldBlendError),
     /// The interval of t in which the colours of pictures change is empty.
     #[error(transparent)]
     Colours(#[from] ColourMixError),
-    /// The frame of a plane warp could not be triangulated with its pins.
+    /// The plane could not be triangulated in such a way that the pins are vertices of the mesh.
     #[error(transparent)]
     Frame(#[from] FramePinsError),
     /// The line warp could not be built.

@@ -144,7 +144,7 @@ impl Frame {
         }
     }
 
-    /// Adds the rings of this frame, paint layer by paint layer.
+    /// Returns `figure` with the rings of this frame added to it, the lowest paint layer first.
     fn with_paint_layers(&self, mut figure: VectorFigure) -> VectorFigure {
         let content = self.transition.content();
         for inked in content.layers_at(self.placement(), self.t()) {

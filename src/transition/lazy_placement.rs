@@ -13,9 +13,9 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 #[derive(Debug)]
 pub(super) struct LazyPlacement {
     t: f64,
-    /// The placer while its placement is up to date.
+    /// Holds the placer as long as its placement is the one at `t`; empty otherwise.
     current: OnceLock<Placer>,
-    /// The placer while its placement is out of date.
+    /// Holds the placer as long as its placement is not yet the one at `t`; otherwise `None`.
     outdated: Mutex<Option<Placer>>,
 }
 

@@ -80,7 +80,7 @@ impl TransitionMethod {
         }
     }
 
-    /// Returns the labels of the method.
+    /// Returns the texts with which the method is shown to users, such as its name and description.
     #[must_use]
     pub const fn labels(self) -> CellLabels {
         match labels_of(self.warp, self.content) {
@@ -102,20 +102,21 @@ impl TransitionMethod {
         self.labels().name
     }
 
-    /// Returns the warp: the row of the table.
+    /// Returns the warp, which determines the row of the method in the table of methods.
     #[must_use]
     pub const fn warp(self) -> WarpKind {
         self.warp
     }
 
-    /// Returns the content: the column of the table.
+    /// Returns the content, which determines the column of the method in the table of methods.
     #[must_use]
     pub const fn content(self) -> ContentKind {
         self.content
     }
 }
 
-/// Returns the labels of a combination, or the reason why it is not supported.
+/// Returns the texts with which a combination is shown to users, or the reason why it is not
+/// supported.
 const fn labels_of(warp: WarpKind, content: ContentKind) -> CellSupport {
     let words = warp.labels();
     match content {

@@ -14,23 +14,24 @@ use std::fmt;
 pub enum TransitionNote {
     /// The match of the outlines deviates from the request.
     Match(MatchNote),
-    /// Automatic pins were thinned out until the frame did not fold.
+    /// Automatic pins were thinned out until the warp of the plane had no folds.
     FewerPins {
         /// Number of pins that are used.
         left: usize,
         /// Number of automatic pins before they were thinned out.
         of: usize,
     },
-    /// The outlines could not become edges of the mesh of the frame; pins along the outlines move
-    /// the frame instead.
+    /// The plane follows pins along the outlines, because the plane could not be triangulated with
+    /// the outlines as mesh edges.
     PinsInsteadOfOutlines(FrameOutlinesError),
-    /// The outlines on which the pins lie could not be matched; the pins alone move the frame.
+    /// The plane follows the pins alone, because the outlines on which they lie could not be
+    /// matched.
     PinsUnmatched(RegionMatchError),
     /// The designs would match far better if one of them were mirrored.
     Mirrored {
         /// Mean distortion of the best match as drawn; see [`CompatibleMesh::distortion`].
         as_drawn: f64,
-        /// Mean distortion of the first match with one design mirrored.
+        /// Mean distortion with one design mirrored, for a match that was not improved by a search.
         mirrored: f64,
     },
     /// An exact boundary was requested, but the metric is not Euclidean: the boundary lies between

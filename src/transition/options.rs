@@ -29,7 +29,7 @@ pub struct TransitionOptions {
     /// How pins and lines of plane warps move between the designs.
     #[serde(skip_serializing_if = "is_default")]
     pub travel: FeatureTravel,
-    /// Width of truss bars, as a fraction of the larger design's diameter.
+    /// Width of truss bars, as a fraction of the diameter of the largest design of the sequence.
     pub bar_width: f64,
     /// How outlines are matched. Positions are in each design's own coordinates in a document, and
     /// in those of the common frame in a specification.
@@ -143,7 +143,7 @@ pub enum PaintRule {
     /// The drawings' own colours, if they have any.
     #[default]
     Own,
-    /// The colours of the style; each drawing is one figure.
+    /// The colours of the style: each drawing is filled with a single colour.
     One,
 }
 
@@ -180,10 +180,11 @@ pub struct FieldOptions {
     pub boundary: FieldBoundary,
     /// How the two fields are mixed.
     pub blend: FieldBlend,
-    /// Number of grid cells along the longer side of the frame. Distances, ε and the threshold are
-    /// in units of these cells.
+    /// Number of grid cells along the longer side of the grid. The distances, and the parameters
+    /// ε and threshold of [`FieldBlend`], are in units of these cells.
     pub cells: u32,
-    /// Margin of the grid around the designs, as a fraction of the longer side of the frame.
+    /// Margin of the grid around the designs, as a fraction of the longer side of the box around
+    /// all designs.
     pub margin: f64,
 }
 

@@ -134,7 +134,7 @@ fn part_at(
 }
 
 impl SolidContent {
-    /// Removes all clocks.
+    /// Removes all part clocks, so that all parts move at the same time.
     fn take_clocks(&mut self) {
         self.part_clocks = None;
         // Layers without paint were only added together with the clocks, so they are removed too.

@@ -1,5 +1,5 @@
-//! Determines the paint layers of a transition: one for each pair of source and target layers that
-//! its pieces connect.
+//! Determines the paint layers of a transition: one for each pair of a source layer and a target
+//! layer with parts that are matched to each other, and one for each layer without matched parts.
 
 use super::drawing_pair::{DrawingPair, LayerInk};
 use super::paint_layer_options::PaintLayerOptions;
@@ -12,7 +12,7 @@ use crate::correspondence::{PartAppearances, PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side};
 
 impl TransitionData {
-    /// Applies options for paint layers.
+    /// Applies options to the paint layers of the content; without paint layers, changes nothing.
     pub(super) fn with_paint_layers(mut self, options: &PaintLayerOptions) -> Self {
         if let Some(layers) = self.content.paint_layers_mut() {
             layers.reorder_t = options.reorder_at;
@@ -152,7 +152,8 @@ fn shading(
 }
 
 /// Returns the height of each layer in the stack of one design, 0 for the lowest. A layer that
-/// exists only in the other design lies directly above the layer that is next below it there.
+/// exists only in the other design is inserted directly above its lower neighbour in that other
+/// design.
 fn z_indices(layers: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
     let other = side.other();
     let mut order: Vec<usize> = (0..layers.len())

@@ -1,5 +1,7 @@
-//! Builds warps of the whole plane for distance fields and pictures. Pins and lines move either a
-//! warp on a grid, or the frame as rigid parts.
+//! Builds warps of the whole plane, which move distance fields or pictures.
+//!
+//! A warp follows *features*, that is, pins and lines. It is either evaluated on a grid, or moves a
+//! mesh as rigidly as possible. Here, the *frame* is the rectangle of the plane that is warped.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::arap_build::build_arap;
@@ -18,25 +20,25 @@ use crate::warp::{
 use crate::work::progress::{Progress, ProgressSpan, checkpoint, run_cancellable};
 use std::sync::Arc;
 
-/// Maximum number of grid cells along the longer side of the frame. The warp is linear within each
-/// triangle of a cell, which covers a few pixels of a window (heuristic).
+/// Maximum number of cells along the longer side of the grid of a warp. Each cell consists of two
+/// triangles, in which the warp is linear, and covers a few pixels of a window (heuristic).
 const MAX_GRID_CELLS: u32 = 160;
 
-/// Maximum work per frame: the number of grid points times the number of features. If a grid would
-/// need more work, it is made coarser (resource limit: some milliseconds on one or two cores, for
-/// 60 frames per second).
+/// Maximum work of evaluating a warp at one t: the number of grid points times the number of pins,
+/// where a line counts as four pins. If a grid would need more work, it is made coarser (resource
+/// limit: some milliseconds on one or two cores, for 60 evaluations per second).
 const MAX_FRAME_WORK: f64 = 3e6;
 
-/// Work of the lattice warp at one grid point, expressed as a number of features of another warp.
-/// It does not depend on the actual number of features (heuristic).
+/// Work of the lattice warp at one grid point, expressed as a number of pins of another warp. It
+/// does not depend on the actual number of pins and lines (heuristic).
 const LATTICE_WORK: usize = 16;
 
-/// Distance by which the mesh of rigid parts extends beyond the frame, as a fraction of the frame's
-/// longer side. The border of the mesh bends; a wider margin would only add faces that are never
-/// visible (heuristic).
+/// Distance by which a mesh of the plane extends beyond the rectangle that is warped, as a fraction
+/// of the longer side of this rectangle. The border of the mesh bends; a wider margin would only
+/// add faces that are never visible (heuristic).
 const FRAME_MARGIN: f64 = 0.25;
 
-/// Builds the specified warp over a frame.
+/// Builds the specified warp of the plane, over the rectangle `frame`.
 ///
 /// # Errors
 /// If features cannot be determined, the warp cannot be built, or the work is cancelled.
@@ -70,7 +72,7 @@ pub(super) fn build_plane_warp(
     })
 }
 
-/// Builds a grid warp that moves the features.
+/// Builds a warp that is evaluated on a grid and follows the given pins and lines.
 fn build_grid_warp(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -99,8 +101,10 @@ fn build_grid_warp(
     }
 }
 
-/// Builds a warp on a grid that moves the features, combined with their common rigid motion if they
-/// travel as a whole. `work` is the work of one grid point, as a number of features.
+/// Builds a warp that is evaluated on a grid and follows the given pins and lines. If the option
+/// `travel` makes them travel as a whole, the warp is relative to their common rigid motion. `work`
+/// is the work of evaluating the warp at one grid point, as a number of pins; see
+/// [`MAX_FRAME_WORK`].
 fn on_grid<W: PlaneWarp>(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -142,11 +146,11 @@ fn grid(frame: &Bounds, work: usize) -> PlaneGrid {
     PlaneGrid::covering(frame, (cells as u32).max(24))
 }
 
-/// Builds a warp that moves the frame as one mesh, as rigidly as its matched outlines or pins
-/// allow. Automatic pins are thinned out until the frame does not fold.
+/// Builds a warp that moves the plane as one mesh, as rigidly as matched outlines or pins allow.
+/// Automatic pins are thinned out until the plane does not fold.
 ///
 /// # Errors
-/// If the frame folds with pins set by the user or cannot be triangulated, or the work is
+/// If the plane folds with pins set by the user or cannot be triangulated, or the work is
 /// cancelled.
 fn rigid(
     spec: &TransitionSpec,
@@ -183,11 +187,11 @@ fn rigid(
     })
 }
 
-/// Builds a warp that moves the frame as rigidly as its pins allow. While automatic pins fold the
-/// frame or coincide, every other pin is removed.
+/// Builds a warp that moves the plane as rigidly as the pins allow. As long as automatic pins fold
+/// the plane, or two of them coincide in only one design, every other pin is removed.
 ///
 /// # Errors
-/// If the frame folds with pins set by the user or cannot be triangulated, or the work is
+/// If the plane folds with pins set by the user or cannot be triangulated, or the work is
 /// cancelled.
 fn about_pins(
     spec: &TransitionSpec,
@@ -217,9 +221,9 @@ fn about_pins(
     Ok(AnyWarp::Rigid(arap))
 }
 
-/// Builds a warp that moves the frame as rigidly as its matched outlines allow, combined with the
-/// common rigid motion of the features. The inner error says why the outlines do not divide the
-/// frame in the same way in both designs.
+/// Builds a warp that moves the plane as rigidly as the matched outlines allow, relative to the
+/// common rigid motion of the features. The inner error says why no mesh of the plane has the
+/// outlines of both designs as edges.
 fn about_outlines(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -257,7 +261,7 @@ fn about_outlines(
     }))
 }
 
-/// Returns the box around the frame and all outlines, with a margin.
+/// Returns the box around `frame` and all matched outlines, with the margin [`FRAME_MARGIN`].
 fn padded_frame(matched: &RegionMatch, frame: &Bounds) -> Bounds {
     let rings = matched.pieces.iter().flat_map(|piece| &piece.rings);
     let points = rings.flat_map(|ring| ring.source.iter().chain(&ring.target));

@@ -24,7 +24,7 @@ const AUTOMATIC_PINS: usize = 24;
 /// close together fold it).
 const AUTOMATIC_LINES: usize = 10;
 
-/// The features that a plane warp follows.
+/// The features (pins and lines) that a plane warp follows.
 #[derive(Default)]
 pub(super) struct PlaneFeatures {
     pub points: Vec<PointPair>,

@@ -1,6 +1,7 @@
-//! Matches the pieces, the connected parts of the match, such that they do not pass through each
-//! other.
+//! Matches the parts of two designs such that, as far as possible, matched parts do not pass
+//! through each other.
 //!
+//! A piece is a connected part of the match: usually a matched pair of parts, or an unmatched part.
 //! Each piece is matched on its own. If matched pieces then collide, some of them are unpaired: the
 //! source part disappears and the target part appears. Pieces that cannot be triangulated are
 //! unpaired too. Collisions are first resolved with draft matches, which are cheap, and then again
@@ -25,31 +26,34 @@ use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancel
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Maximum number of rounds in which pieces are unpaired (resource limit; splitting a group again
-/// can cause new collisions).
+/// Maximum number of rounds in which colliding pieces are unpaired. One round may not suffice: a
+/// split part is then split again for the parts with which it is still matched, which can cause new
+/// collisions (resource limit).
 const MAX_ROUNDS: u32 = 3;
 
 /// Progress reported once the collisions of the draft matches are resolved, in [0, 1] (heuristic).
 const DRAFT_PROGRESS: f64 = 0.1;
-/// Progress reported once unmatched parts are assigned to neighbouring groups, in [0, 1]
+/// Progress reported once unmatched parts are assigned to neighbouring groups of parts, in [0, 1]
 /// (heuristic).
 const JOIN_PROGRESS: f64 = 0.2;
 
-/// Progress of one round, in [0, 1], reported once its pieces are matched (heuristic).
+/// Progress of one round of unpairing, in [0, 1], reported once the pieces are matched, before
+/// their motion is solved (heuristic).
 const MATCH_PROGRESS: f64 = 0.9;
 
 /// Misfit assumed for an unmatched piece in the mean misfit of all pieces (heuristic).
 const UNMATCHED_DISTORTION: f64 = 30.0;
 
-/// Assigning unmatched parts to other groups is accepted only if it reduces the unmatched share of
-/// the designs' area by more than this (heuristic: about half a large part).
+/// Assigning unmatched parts to neighbouring groups of parts is accepted only if it reduces the
+/// unmatched share of the designs' area by more than this (heuristic: about half of the area of a
+/// large part).
 const MIN_SAVING: f64 = 0.05;
 
 /// The matches of all pieces, with collisions resolved as far as possible, and their motion.
 pub(super) struct Separation {
     pub(super) matched: RegionMatch,
     pub(super) arap: Arap,
-    /// The matched and triangulated pieces.
+    /// All pieces with their meshes, including the unmatched ones; in the order of `matched`.
     pub(super) pieces: Vec<MatchCandidate>,
     /// The pieces of each group, which a later search reuses.
     groups: ChosenGroups,
@@ -226,8 +230,9 @@ fn combined_match(groups: &[Vec<PieceResult>]) -> RegionMatch {
 
 /// Returns the indices of the pieces to unpair because they cannot be triangulated.
 ///
-/// From the second repair on, all pieces of a group with such a piece are unpaired, because its
-/// parts may fail again when they are grouped anew.
+/// `repairs` is the number of times that pieces have been unpaired for this reason. If it is not 0,
+/// all pieces of a group with such a piece are unpaired, because the parts of the group may fail
+/// again when they are grouped anew.
 fn failed_pieces(groups: &[Vec<PieceResult>], repairs: u32) -> Vec<usize> {
     let mut first_piece = 0;
     let mut failing = Vec::new();

@@ -178,8 +178,9 @@ impl SolutionRecord {
         }))
     }
 
-    /// Returns whether all numbers are in range and all list lengths fit. Faces and positions are
-    /// checked later, when the mesh is built.
+    /// Returns whether all numbers and indices are in range, and no list is longer than the number
+    /// of pieces, faces or vertices that it describes. Faces and positions are checked later, when
+    /// the mesh is built.
     fn is_sound(&self) -> bool {
         let pieces = self.pieces.len();
         let is_piece = |piece: &PieceMatch| {
@@ -277,7 +278,8 @@ mod tests {
         }
     }
 
-    /// Returns a guard for a mesh with `vertices` vertices that moves all of them at t = ½.
+    /// Returns a guard, which moves vertices aside to avoid collisions, for a mesh with `vertices`
+    /// vertices. It moves all of them at t = ½.
     fn guard(vertices: usize) -> Option<Guard> {
         let mut rows = vec![vec![DVec2::ZERO; vertices]; 3];
         rows[1].fill(DVec2::new(0.125, 0.0));

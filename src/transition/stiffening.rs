@@ -1,10 +1,11 @@
 //! Removes folds from a rigid interpolation by stiffening the folded faces, as far as possible.
 //!
 //! This applies only to homotopies that keep orientation; motions with other homotopies are left
-//! unchanged. With such a homotopy, a face that follows its local map exactly never folds. It folds
-//! because its neighbours pull it away from that map. Folded faces are therefore stiffened
-//! repeatedly, until no face folds or the maximum number of rounds is reached. Both ends of the
-//! motion stay exact, since there every face follows its local map.
+//! unchanged. Such a homotopy prescribes an affine map for each face at each t. A face that follows
+//! its map exactly never folds; a face folds because its neighbours pull it away from its map.
+//! Folded faces are therefore stiffened repeatedly, until no face folds or the maximum number of
+//! rounds is reached. At t = 0 and t = 1, every face follows its map, so the motion stays exact
+//! there.
 //!
 //! The motion is sampled in [`STEPS`] steps; folds between two samples are missed. Not guaranteed:
 //! that all folds are removed. Where large areas fold, stiffness only moves the fold elsewhere.

@@ -159,9 +159,9 @@ impl Transition {
         &self.0.recording
     }
 
-    /// Returns the rigidity-preserving interpolation of solids, or of the frame that carries fields
-    /// or pictures; `None` for other warps. If the frame also has a common rigid motion, this is
-    /// the interpolation relative to that motion.
+    /// Returns the rigidity-preserving interpolation of solid designs, or that of the plane, which
+    /// moves distance fields or pictures; `None` for other warps. If the plane also has a common
+    /// rigid motion, the interpolation is relative to that motion.
     #[must_use]
     pub fn arap(&self) -> Option<&Arap> {
         self.0.built_warp.warp.arap()
@@ -225,15 +225,15 @@ impl Transition {
         &self.0.built_warp.automatic_pins
     }
 
-    /// Returns a summary of the pins and lines that the warp misses at `t`; `None` if it misses
-    /// none.
+    /// Returns a summary of the pins and lines whose positions in the designs the warp reproduces
+    /// only inaccurately at `t`; `None` if there are none.
     #[must_use]
     pub fn missed_features(&self, t: f64) -> Option<MissedFeatures> {
         self.warp().missed_features(t)
     }
 
-    /// Returns the common triangulation of solid designs, if they have one. The mesh of the frame
-    /// that carries fields and pictures is available from [`Self::arap`].
+    /// Returns the common triangulation of solid designs, if they have one. For distance fields and
+    /// pictures, [`Self::arap`] gives access to the mesh of the plane that moves them.
     #[must_use]
     pub fn compatible(&self) -> Option<&CompatibleMesh> {
         match (self.content(), &self.0.built_warp.warp) {

@@ -212,7 +212,8 @@ impl Arap {
         let children = 4_usize.saturating_pow(options.subdivisions);
         let coarse = parameters.stiffness.iter();
         let stiffness: Vec<f64> = coarse.flat_map(|&by| repeat_n(by, children)).collect();
-        // The anchor is checked after subdivision, because it may be one of the new vertices.
+        // The index of the anchor vertex is checked after subdivision, because the anchor may be a
+        // vertex that the subdivision adds.
         options.path.check(mesh.source().len())?;
         checkpoint(progress, "decomposing", 0.1)?;
         let options = ArapOptions {
@@ -340,7 +341,7 @@ impl Arap {
     /// Returns the rotation of the whole design from source to target, in radians.
     ///
     /// This is the best-fit rotation of the vertices, plus the whole turns that bring it nearest to
-    /// the mean rotation of the first part.
+    /// the mean rotation of the faces of the first edge-connected component.
     pub(crate) fn rotation(&self) -> f64 {
         self.0.maps.whole_angle
     }
@@ -353,8 +354,8 @@ impl Arap {
 
     /// Returns the interpolation from target to source.
     ///
-    /// Each rotation angle is minus that of this interpolation, including its whole turns; angles
-    /// are not chosen anew.
+    /// Each face rotates by the negated angle of this interpolation, whole turns included; its
+    /// angle is not chosen anew.
     ///
     /// # Errors
     /// [`ArapError`] if the job is cancelled or the new matrix cannot be factored.
@@ -385,8 +386,8 @@ impl Arap {
         Ok(swapped.with_guard(self.guard().map(Guard::backwards)))
     }
 
-    /// Returns the same interpolation with `guard` in place of its current guard; `None` removes
-    /// the guard.
+    /// Returns the same interpolation with another guard (displacements that avoid collisions of
+    /// the outlines), or without a guard if `guard` is `None`.
     pub(crate) fn with_guard(&self, guard: Option<Guard>) -> Self {
         let inner = &*self.0;
         Self(Arc::new(FactoredArap {
@@ -402,8 +403,8 @@ impl Arap {
         }))
     }
 
-    /// Returns the same interpolation with other time windows of transient parts and without a
-    /// guard.
+    /// Returns the same interpolation with other time windows of transient parts, and without a
+    /// guard (displacements that avoid collisions of the outlines).
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -423,16 +424,16 @@ impl Arap {
         )
     }
 
-    /// Returns the largest displacement applied to avoid collisions, in diameters of the mesh, or
-    /// `None` without a guard.
+    /// Returns the largest displacement that the guard applies to avoid collisions of the outlines,
+    /// in diameters of the mesh; `None` if the interpolation has no guard.
     #[must_use]
     pub fn max_guard_displacement(&self) -> Option<f64> {
         let guard = self.guard()?;
         Some(guard.farthest() / self.mesh().diameter())
     }
 
-    /// Returns the times at which the guard's displacements are given. Between these times the
-    /// displacements change smoothly. Empty without a guard.
+    /// Returns the times at which the displacements of the guard, which avoid collisions of the
+    /// outlines, are given. Between these times they change smoothly. Empty without a guard.
     pub(super) fn guard_times(&self) -> &[f64] {
         self.guard().map(Guard::times).unwrap_or_default()
     }
@@ -443,8 +444,8 @@ impl Arap {
         self.0.guard.as_deref()
     }
 
-    /// Returns the same interpolation without a guard and with the stiffness factors `by`, which
-    /// replace the current ones.
+    /// Returns the same interpolation with the stiffness factors `by` in place of the current ones,
+    /// and without a guard (displacements that avoid collisions of the outlines).
     ///
     /// The weight of each face is multiplied by its factor. The factors are positive; faces beyond
     /// the end of `by` have the factor 1. A face with a large factor follows its local map more
@@ -490,8 +491,8 @@ impl Arap {
         self.0.translations.carried_position(ends, share, t)
     }
 
-    /// Returns the position in the source and the position in the target that the motion of the
-    /// whole design carries to `place` at `t`.
+    /// Returns the positions in source and target of a point that moves with the whole design and
+    /// is at `place` at `t`.
     pub(crate) fn uncarried_ends(&self, place: DVec2, t: f64) -> [DVec2; 2] {
         self.0.translations.uncarried_ends(place, t)
     }
@@ -507,8 +508,9 @@ impl Arap {
 impl Arap {
     /// Returns a placer that evaluates each connected part at its own time.
     ///
-    /// `clock(part, t)` returns the time at which `part` is evaluated in the frame at `t`. An
-    /// anchor vertex is on its straight path, at the time of its own part.
+    /// `clock(part, t)` returns the time at which `part` is evaluated in the frame at `t`. If the
+    /// options name an anchor vertex, all parts are translated such that this vertex is on its
+    /// straight path, at the time of its own part.
     pub(in crate::warp) fn placer_by(
         &self,
         clock: impl Fn(usize, f64) -> f64 + Send + Sync + 'static,

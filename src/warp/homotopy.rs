@@ -30,9 +30,9 @@ pub enum Homotopy {
     /// only to reproduce the paper's figure 7b.
     LinearAfterPolar,
     /// R(tθ) √((1−t) I + t S²) on [0, 1], and the exponential path outside. Squared lengths change
-    /// linearly, so no angle is distorted more than at the worse end. The ARAP warp flattens these
-    /// metrics together for all faces that are connected by edges (Chen, Weber, Keren, Ben-Chen
-    /// 2013).
+    /// linearly, so on [0, 1] no angle of the source is distorted more than at t = 1. The ARAP warp
+    /// computes these maps for all edge-connected faces together, by flattening the metrics
+    /// (1−t) I + t S² (Chen, Weber, Keren, Ben-Chen 2013).
     Bounded,
 }
 
@@ -60,7 +60,7 @@ impl Homotopy {
         matches!(self, Self::Polar | Self::Exponential | Self::Bounded)
     }
 
-    /// Returns M(t).
+    /// Returns the matrix at t of the path from the identity to `map`.
     ///
     /// ```
     /// use morphospace::{geometry::{DMat2, PolarDecomposition}, warp::homotopy::Homotopy};
@@ -111,7 +111,8 @@ mod tests {
         })
     }
 
-    /// Returns the inverse map with the angle −θ: M⁻¹ = S⁻¹ R(−θ) = R(−θ) (R(θ) S⁻¹ R(−θ)).
+    /// Returns the inverse of the map M = R(θ) S, decomposed into the rotation by −θ and a stretch:
+    /// M⁻¹ = S⁻¹ R(−θ) = R(−θ) (R(θ) S⁻¹ R(−θ)).
     fn inverse(map: &PolarDecomposition) -> PolarDecomposition {
         let turn = DMat2::from_angle(map.angle);
         PolarDecomposition {

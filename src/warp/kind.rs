@@ -1,8 +1,8 @@
 //! The list of warps, with every name and description shown to users.
 //!
 //! A method is a pair of a warp and a content (solid, field or colours). To add a warp, add a
-//! variant to [`WarpKind`], its row in the name table, and a constant with its labels for each
-//! content. The command line, the window and the reports read all their texts from here.
+//! variant to [`WarpKind`], a row to the name table, and a [`WarpLabels`] constant with the texts
+//! for each content. The command line, the window and the reports read all their texts from here.
 
 use crate::settings::named;
 

@@ -105,11 +105,11 @@ impl Lattice {
         self.domain.tolerance
     }
 
-    /// For each feature, returns the distances between its images under both maps at t and its
-    /// positions in source and target, in plane units.
+    /// For each feature, returns by how far the maps at t miss its position in the source and its
+    /// position in the target, in plane units.
     ///
-    /// Point pairs come first, then the sample points of each line. Both maps are built for this,
-    /// which costs as much as a frame.
+    /// Point pairs come first, then the sample points of each line. The maps into source and target
+    /// are built anew by each call, which costs as much as a frame.
     #[must_use]
     pub fn residuals(&self, t: f64) -> Vec<[f64; 2]> {
         let mut at_t = self.clone();
@@ -119,7 +119,7 @@ impl Lattice {
         both.map(<[f64; 2]>::from).collect()
     }
 
-    /// Builds both maps for time t.
+    /// Builds the maps from the frame to the source and to the target, for time t.
     fn build(&mut self, t: f64) {
         let [source, target] = &mut self.stacks;
         let (features, ground) = (&self.features, &self.domain);

@@ -91,7 +91,7 @@ struct LinesAtTime {
     arch: Arch,
     constants: BeierNeelyConstants,
     plane: ScaledPlane,
-    /// The paper's constant a in scaled coordinates.
+    /// Constant a of Beier and Neely, in the scaled coordinates of `plane`.
     a: f64,
     lines: Vec<FieldLine>,
 }
@@ -163,11 +163,12 @@ impl LinesAtTime {
         self.weigh();
     }
 
-    /// Replaces each line's length by its strength, (length / greatest length)^(b p).
+    /// Replaces the `strength` of each line, which has held the line's length so far, by
+    /// (length / greatest length)^(b p), with the exponents b and p of Beier and Neely.
     fn weigh(&mut self) {
         let lengths = self.lines.iter().map(|line| line.strength);
-        // A common factor cancels in Σ w D / Σ w, and dividing by the greatest length keeps the
-        // powers at or below 1.
+        // A factor common to all weights cancels in the weighted mean of the displacements.
+        // Dividing by the greatest length keeps the powers at or below 1.
         let greatest = lengths.fold(0.0, f64::max);
         let exponent = self.constants.b * self.constants.p;
         for line in &mut self.lines {

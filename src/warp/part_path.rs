@@ -11,9 +11,10 @@ use crate::geometry::{DMat2, DVec2};
 /// Path of a part's centroid relative to the design's centroid.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PartPath {
-    /// Offset d from the design's centroid in the source.
+    /// Offset of the part's centroid from the design's centroid in the source.
     begin: DVec2,
-    /// Offset e in the target, rotated back: R(−Θ) e.
+    /// Offset of the part's centroid from the design's centroid in the target, rotated back by the
+    /// design's rotation.
     turned_end: DVec2,
 }
 
@@ -30,7 +31,8 @@ impl PartPath {
         centres.iter().map(path).collect()
     }
 
-    /// Returns the path between two points, given the design's centroid in both designs.
+    /// Returns the path of a part whose centroid is at `begin` in the source and at `end` in the
+    /// target. The whole design has its centroid at `from` in the source and at `to` in the target.
     pub(super) fn of([begin, end]: [DVec2; 2], [from, to]: [DVec2; 2], whole_angle: f64) -> Self {
         Self {
             begin: begin - from,
@@ -38,12 +40,13 @@ impl PartPath {
         }
     }
 
-    /// Returns the offset from the design's centroid at t.
+    /// Returns the offset of the part's centroid from the design's centroid at t.
     pub(super) fn offset(&self, t: f64, whole_angle: f64) -> DVec2 {
         self.offset_at_fraction(t, t, whole_angle)
     }
 
-    /// Returns the offset at t for a part that has completed `share` of its own motion.
+    /// Returns the offset of the part's centroid from the design's centroid at t, for a part that
+    /// has completed the fraction `share` of its own motion.
     ///
     /// `share` runs from 0 to 1; the rotation with the design always follows t.
     pub(super) fn offset_at_fraction(&self, t: f64, share: f64, whole_angle: f64) -> DVec2 {
@@ -51,14 +54,16 @@ impl PartPath {
         DMat2::from_angle(t * whole_angle) * unrotated
     }
 
-    /// Returns the deviation from the straight path at t; exactly 0 at both ends.
+    /// Returns the deviation of the offset at t from the straight path between its values at t = 0
+    /// and t = 1; exactly 0 at these two times.
     pub(super) fn deviation(&self, t: f64, whole_angle: f64) -> DVec2 {
         let straight = self.begin * (1.0 - t) + self.offset(1.0, whole_angle) * t;
         self.offset(t, whole_angle) - straight
     }
 }
 
-/// Returns the centres of mass in source and target of point pairs with masses.
+/// Returns two centres of mass: that of the source points and that of the target points of
+/// `points`.
 pub(super) fn centroid(
     points: impl Iterator<Item = [DVec2; 2]> + Clone,
     mass: &[f64],

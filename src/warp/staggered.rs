@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 /// Time window and easing of the motion of one part.
 ///
-/// The part waits until `from`, moves with `easing`, and has arrived at `to`. Outside [0, 1] it
-/// extrapolates like the other parts.
+/// The part waits until `from`, moves with `easing`, and has arrived at `to`. For t outside [0, 1],
+/// the part extrapolates as it would without a clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartClock {
     /// Time at which the part starts, at least 0.
@@ -32,7 +32,8 @@ impl PartClock {
         easing: EasingFunction::Named(NamedEasing::Linear),
     };
 
-    /// Returns the time at which the part is evaluated in frame `t`; exactly 0 and 1 at the ends.
+    /// Returns the time at which the part is evaluated in the frame at `t`; exactly 0 for t = 0 and
+    /// exactly 1 for t = 1.
     ///
     /// ```
     /// use morphospace::time::NamedEasing;

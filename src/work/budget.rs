@@ -1,4 +1,4 @@
-//! Size limits of jobs that need confirmation before they start.
+//! Size limits above which a job needs confirmation before it starts.
 //!
 //! A job expected to take more than 10 seconds or 2 GiB fails with [`WorkloadTooLarge`] before it
 //! starts, unless [`Progress::is_patient`]. All limits are listed here, each with the measurement
@@ -49,8 +49,8 @@ impl WorkloadKind {
             Self::CrossingBars => 4_000_000,
             // 8192 × 8192 cells take more than 40 s; the limit is a seventh of them.
             Self::Cells => 3072 * 3072,
-            // Two sheets of two million faces take 1.8 GiB and 4 s on one core. Until their motion
-            // is recorded, each frame takes 0.3 s.
+            // A transition between two sheets, on a mesh of two million faces, takes 1.8 GiB and
+            // 4 s on one core. Until its motion is recorded, each frame takes 0.3 s.
             Self::Faces => 2_200_000,
             // A pixel prepared for blending takes 26 bytes; this many take 2 GiB.
             Self::Pixels => 82_000_000,

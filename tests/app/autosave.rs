@@ -45,8 +45,8 @@ fn offered_title(window: &HeadlessWindow) -> Option<String> {
     autosave.recoverable().map(|(title, _)| title.to_owned())
 }
 
-/// Changes a project and drops the window without closing it, like a killed process; returns the
-/// title of the project.
+/// Changes a project, waits until it is autosaved, and drops the window without closing it, as if
+/// the program had been killed. Returns the title of the project.
 fn leave_unsaved_project(folder: &Path) -> String {
     let mut window = with_autosave(HeadlessWindow::with_gallery(), folder);
     window.send(Intent::CyclePlayMode);

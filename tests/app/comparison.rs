@@ -1,5 +1,5 @@
-//! The comparison (a second method, shown next to the stage at the same t), and the measures of the
-//! film on the stage.
+//! Tests of the comparison, which shows the same designs at the same t by a second method, next to
+//! the stage. Also tests of the measures of the film on the stage.
 
 use std::time::Duration;
 

@@ -1,5 +1,6 @@
-//! Opening, dropping, replacing, saving and closing files: effects, questions about unsaved
-//! changes, and errors. Also changes of settings during a build, and cancelling a build.
+//! Tests of opening, dropping, replacing, saving and closing files: the result on the stage,
+//! questions about unsaved changes, and errors. Also changes of settings during a build, cancelling
+//! a build, and settings outside the ranges of their sliders.
 
 use std::path::Path;
 

@@ -248,7 +248,8 @@ fn a_slow_build_shows_a_field_blend_meanwhile() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_pair(folder.path(), &star(11, 10.0), &star(4, 30.0));
     let mut project = window.session().project().cloned().expect("a project");
-    // The mesh gets almost 400,000 triangles, slightly below the limit.
+    // The mesh gets almost 400,000 triangles. They take longer to build than the window waits
+    // before it shows a field blend, but are too few for the build to be refused.
     project.options.arap.subdivisions = 5;
     window.send(Intent::ReplaceSettings(Box::new(project.clone())));
     let path = folder.path().join("fine.morph");
@@ -323,7 +324,8 @@ fn with_draft(folder: &Path) -> HeadlessWindow {
 fn a_draft_plays_until_the_final_film_replaces_it_at_an_end() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_draft(folder.path());
-    // Work is shown only after some time; the draft may be ready earlier.
+    // The progress of a build is shown only once the build has run for a while. The draft may be
+    // on the stage before that.
     wait_for_shown_work(&mut window);
     let stage = window.session().visible_work().map(|(stage, _)| stage);
     assert_eq!(stage, Some("Improving film"));
@@ -394,7 +396,7 @@ fn a_refused_long_build_starts_on_request_and_escape_cancels_it() {
 #[test]
 fn a_build_refused_on_opening_starts_on_request() {
     let folder = tempfile::tempdir().expect("a folder");
-    // So many parts are matched only after the user confirms it.
+    // The two designs have 2,000 parts, so the match starts only once the user has confirmed it.
     let squares = |name: &str, side: f64| {
         let square = |k: usize| {
             let [x, y] = [k % 40, k / 40].map(|c| c * 10);

@@ -132,7 +132,8 @@ fn designs_are_laid_out_on_a_line_and_moved_by_hand() {
     window.send(Intent::MoveMapDesign(1, new_site));
     wait_for_map(&mut window);
     assert_eq!(sites(&window)[1], new_site);
-    // The window ignores a move onto another site, and a move of design 99, which does not exist.
+    // The window does not move a design onto the position of another design. It also ignores a move
+    // of design 99, which does not exist.
     let first_site = sites(&window)[0];
     window.send(Intent::MoveMapDesign(1, first_site));
     window.send(Intent::MoveMapDesign(99, new_site));
@@ -161,11 +162,7 @@ fn wait_for_film(window: &mut HeadlessWindow) {
 }
 
 #[test]
-#[expect(
-    clippy::too_many_lines,
-    reason = "one sequence; longer names wrap its lines"
-)]
-fn a_path_is_drawn_played_and_undone() {
+fn a_path_is_drawn_and_played() {
     let (_folder, mut window) = with_rectangles(3, false);
     let sites = map_view(&window)
         .pictures()
@@ -206,6 +203,25 @@ fn a_path_is_drawn_played_and_undone() {
     window.update();
     window.update();
     assert_eq!(weights(&window), [0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn removing_the_path_restores_the_film_from_design_to_design() {
+    let (_folder, mut window) = with_rectangles(3, false);
+    let sites = map_view(&window)
+        .pictures()
+        .expect("a map")
+        .map()
+        .sites()
+        .to_vec();
+    for points in [
+        vec![sites[0]],
+        vec![DVec2::ZERO],
+        vec![DVec2::new(0.1, -0.1), sites[2]],
+    ] {
+        window.send(Intent::ExtendPath(points));
+        wait_for_film(&mut window);
+    }
     // A film along a path blends all designs, so there is no match of two designs to edit.
     assert!(!window.session().has_match_editor());
     window.send(Intent::RemoveLastPathStop);

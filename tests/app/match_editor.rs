@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::headless_window::HeadlessWindow;
 use bevy::input::keyboard::{Key, KeyCode};
-use bevy::prelude::{ButtonInput, MouseButton, Vec2};
+use bevy::prelude::{ButtonInput, MouseButton, Mut, Vec2};
 use morphospace::app::testing::{
     EditorAction, EditorHandle, EditorPane, EditorPointer, EditorTool, Intent, PaneView, PieceFate,
 };
@@ -54,6 +54,21 @@ fn pointer_at(side: Side, x: f64, y: f64) -> EditorPointer {
         pick_radius: 3.0,
         ignores_snapping: false,
     }
+}
+
+/// Performs an action of the pointer at a point of a design, given in the common frame.
+fn act_at(
+    window: &mut HeadlessWindow,
+    action: fn(EditorPointer) -> EditorAction,
+    side: Side,
+    p: DVec2,
+) {
+    window.act(action(pointer_at(side, p.x, p.y)));
+}
+
+/// The mouse buttons, as the window sees them.
+fn mouse_buttons(window: &mut HeadlessWindow) -> Mut<'_, ButtonInput<MouseButton>> {
+    window.0.world_mut().resource_mut()
 }
 
 /// The corner of the design on `side` that is nearest to the point `near`.
@@ -127,11 +142,7 @@ fn points_keep_their_letters_when_one_is_pinned() {
     };
     let before = labelled_points(&window);
     let pinned = before[0].1;
-    window.act(EditorAction::Press(pointer_at(
-        Side::Source,
-        pinned.x,
-        pinned.y,
-    )));
+    act_at(&mut window, EditorAction::Press, Side::Source, pinned);
     let moved_pointer = pointer_at(Side::Source, pinned.x + 4.0, pinned.y);
     window.act(EditorAction::Drag(moved_pointer, Vec2::new(3.0, 0.0)));
     window.act(EditorAction::Release);
@@ -155,10 +166,6 @@ fn points_keep_their_letters_when_one_is_pinned() {
 }
 
 #[test]
-#[expect(
-    clippy::too_many_lines,
-    reason = "one sequence; longer names wrap its lines"
-)]
 fn a_dragged_point_becomes_a_pin_that_snaps_to_a_corner() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path(), L, TALL_L);
@@ -175,11 +182,7 @@ fn a_dragged_point_becomes_a_pin_that_snaps_to_a_corner() {
     let start = pointer_at(Side::Target, from.target.x, from.target.y);
     let step = Vec2::new(3.0, 0.0);
     let before = window.session().project().cloned();
-    let mut buttons = window
-        .0
-        .world_mut()
-        .resource_mut::<ButtonInput<MouseButton>>();
-    buttons.press(MouseButton::Left);
+    mouse_buttons(&mut window).press(MouseButton::Left);
     window.act(EditorAction::Press(start));
     let halfway = from.target.lerp(to, 0.5);
     window.act(EditorAction::Drag(
@@ -192,11 +195,7 @@ fn a_dragged_point_becomes_a_pin_that_snaps_to_a_corner() {
         step,
     ));
     window.act(EditorAction::Release);
-    let mut buttons = window
-        .0
-        .world_mut()
-        .resource_mut::<ButtonInput<MouseButton>>();
-    buttons.release(MouseButton::Left);
+    mouse_buttons(&mut window).release(MouseButton::Left);
     window.wait();
     window.wait();
     assert_eq!(window.matching().pins.len(), 1);
@@ -284,10 +283,6 @@ fn delete_and_backspace_remove_the_selected_pin() {
 }
 
 #[test]
-#[expect(
-    clippy::too_many_lines,
-    reason = "one sequence; longer names wrap its lines"
-)]
 fn two_clicks_pair_parts_and_remove_unpairs_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path(), TWO_SQUARES, TWO_SQUARES);
@@ -299,49 +294,25 @@ fn two_clicks_pair_parts_and_remove_unpairs_them() {
     let source = centre(&window, Side::Source, 0);
     let target = centre(&window, Side::Target, 1);
     let other = centre(&window, Side::Target, 0);
-    window.act(EditorAction::Click(pointer_at(
-        Side::Source,
-        source.x,
-        source.y,
-    )));
+    act_at(&mut window, EditorAction::Click, Side::Source, source);
     // A click inside a part switches to the part tool, since no other tool acts there.
     assert_eq!(window.editor().tool, EditorTool::Parts);
     assert!(window.editor().first_part.is_some());
-    window.act(EditorAction::Click(pointer_at(
-        Side::Target,
-        target.x,
-        target.y,
-    )));
+    act_at(&mut window, EditorAction::Click, Side::Target, target);
     window.wait();
     assert_eq!(window.matching().links.len(), 1);
     assert!(window.sheet().pieces.iter().any(|piece| piece.is_linked));
     // A part has at most one partner: the new pair replaces the old one.
-    window.act(EditorAction::Click(pointer_at(
-        Side::Target,
-        other.x,
-        other.y,
-    )));
-    window.act(EditorAction::Click(pointer_at(
-        Side::Source,
-        source.x,
-        source.y,
-    )));
+    act_at(&mut window, EditorAction::Click, Side::Target, other);
+    act_at(&mut window, EditorAction::Click, Side::Source, source);
     window.wait();
     assert_eq!(window.matching().links.len(), 1);
-    window.act(EditorAction::Remove(pointer_at(
-        Side::Source,
-        source.x,
-        source.y,
-    )));
+    act_at(&mut window, EditorAction::Remove, Side::Source, source);
     assert!(window.matching().links.is_empty());
     // A click on a part and then on empty space of the other design leaves the part without a
     // partner, so that it disappears during the film.
     window.wait();
-    window.act(EditorAction::Click(pointer_at(
-        Side::Source,
-        source.x,
-        source.y,
-    )));
+    act_at(&mut window, EditorAction::Click, Side::Source, source);
     window.act(EditorAction::Click(pointer_at(
         Side::Target,
         5000.0,
@@ -357,18 +328,10 @@ fn two_clicks_pair_parts_and_remove_unpairs_them() {
     // The boundary of an unmatched part cannot be pinned; a click there selects the part.
     let corner = window.sheet().sides.as_ref().expect("outlines")[Side::Source].parts[0][0][0];
     window.act(EditorAction::SelectTool(EditorTool::Pins));
-    window.act(EditorAction::Click(pointer_at(
-        Side::Source,
-        corner.x,
-        corner.y,
-    )));
+    act_at(&mut window, EditorAction::Click, Side::Source, corner);
     assert_eq!(window.editor().tool, EditorTool::Parts);
     assert!(window.editor().first_part.is_some() && window.editor().refusal.is_none());
-    window.act(EditorAction::Remove(pointer_at(
-        Side::Source,
-        source.x,
-        source.y,
-    )));
+    act_at(&mut window, EditorAction::Remove, Side::Source, source);
     window.wait();
     assert!(window.matching().lone.is_empty() && !disappears(&window));
     window.wait();
@@ -376,10 +339,6 @@ fn two_clicks_pair_parts_and_remove_unpairs_them() {
 }
 
 #[test]
-#[expect(
-    clippy::too_many_lines,
-    reason = "one sequence; longer names wrap its lines"
-)]
 fn a_click_on_painted_parts_selects_the_visible_one() {
     let folder = tempfile::tempdir().expect("a folder");
     let drawing = |name: &str, discs: &str| {
@@ -414,12 +373,8 @@ fn a_click_on_painted_parts_selects_the_visible_one() {
         of_disc.expect("a disc").label_at[0]
     });
     for [from, to] in [[gold, teal], [teal, gold]] {
-        window.act(EditorAction::Click(pointer_at(
-            Side::Source,
-            from.x,
-            from.y,
-        )));
-        window.act(EditorAction::Click(pointer_at(Side::Target, to.x, to.y)));
+        act_at(&mut window, EditorAction::Click, Side::Source, from);
+        act_at(&mut window, EditorAction::Click, Side::Target, to);
         window.wait();
     }
     assert_eq!(window.matching().links.len(), 2);
@@ -491,7 +446,7 @@ fn dragging_an_automatic_cut_makes_it_a_requested_one() {
     let automatic = window.sheet().cuts[0];
     assert_eq!(automatic.requested_index, None);
     let at = automatic.cut.outer;
-    window.act(EditorAction::Press(pointer_at(Side::Source, at.x, at.y)));
+    act_at(&mut window, EditorAction::Press, Side::Source, at);
     let to = at + DVec2::new(2.0, 2.0);
     window.act(EditorAction::Drag(
         pointer_at(Side::Source, to.x, to.y),

@@ -22,7 +22,8 @@ fn is_searching(window: &HeadlessWindow) -> bool {
         .is_some()
 }
 
-/// A window with a field blend of a horizontal and a vertical bar, which breaks into pieces midway.
+/// A window with a field blend from a horizontal to a vertical bar; midway, the blend breaks into
+/// pieces.
 fn with_field_blend(folder: &Path) -> HeadlessWindow {
     let outline = |name: &str, d: &str| {
         let path = folder.join(name);

@@ -30,8 +30,8 @@ fn confirmations(window: &HeadlessWindow) -> Vec<String> {
     done.map(|notice| notice.text.clone()).collect()
 }
 
-/// Whether the window shows the note that saving was cancelled. It is no confirmation, so it has no
-/// tick.
+/// Whether the window reports that saving was cancelled. The report must be a note: a confirmation
+/// would have a tick as its icon.
 fn reports_cancelled_save(window: &HeadlessWindow) -> bool {
     let notices = window.0.world().resource::<Notices>().list();
     notices

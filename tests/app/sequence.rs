@@ -42,7 +42,8 @@ fn pause_at_start(window: &mut HeadlessWindow) {
     window.send(Intent::SeekStart);
 }
 
-/// Names of the two designs of the segment on the stage, and the blend parameter between them.
+/// Names of the two designs that the stage blends at the moment, and the blend parameter between
+/// them: 0 at the first, 1 at the second.
 fn on_stage(window: &mut HeadlessWindow) -> (String, f64) {
     let world = window.0.world_mut();
     let mut staged = world.query_filtered::<(&StageTransition, &Blend), With<OnStage>>();
@@ -109,7 +110,8 @@ fn settings_of_a_segment_stay_with_its_two_designs() {
         (0..whole.segment_count()).map(of_segment).collect()
     };
     assert_eq!(keeps_upright(&window), [false, false, true]);
-    // After the first design moves to the end, each remaining segment keeps its settings.
+    // Move the first design to the end. Two designs that still follow each other keep the settings
+    // of the segment between them.
     let mut order = window
         .session()
         .whole_project()

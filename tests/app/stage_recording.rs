@@ -43,7 +43,7 @@ fn the_transition_on_the_stage_is_recorded_and_proved() {
     );
     let proved = window.0.world().resource::<StageRecording>().proof();
     assert!(proved.expect("an answer").holds(), "{proved:?}");
-    // The transition that replaces it is recorded as well.
+    // When another project is opened, its transition is recorded as well.
     window.send(Intent::OpenGallery("letters".to_owned()));
     window.wait();
     wait_for_recording(&mut window);

@@ -8,7 +8,8 @@ use tempfile::TempDir;
 
 /// OBJ text of a unit square.
 pub const SOURCE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
-/// OBJ text of a quadrilateral with the faces of [`SOURCE`], rotated by about 90°.
+/// OBJ text of a mesh with the same two faces as [`SOURCE`]; its vertices are those of the square,
+/// rotated by 90°, enlarged and distorted.
 pub const TARGET: &str = "v 0 0 0\nv 0 2 0\nv -2 2 0\nv -1 0.2 0\nf 1 2 3\nf 1 3 4\n";
 
 /// A temporary folder with two meshes and two drawings, in which the program runs.

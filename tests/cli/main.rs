@@ -100,8 +100,8 @@ fn a_new_project_may_store_its_match() {
     assert!(is_matched(&plain.1) && !is_matched(&with_match.1));
     assert_eq!(with_match.1["seconds"]["match"].to_string(), "0.0");
     assert_eq!(plain.1["distortion"], with_match.1["distortion"]);
-    // `--method auto` stores the method that it chose. The field blend of crossed bars breaks into
-    // pieces, so it chooses rigid parts.
+    // `--method auto` stores the method that was chosen. A field blend of a horizontal and a
+    // vertical bar breaks into pieces, so rigid parts are chosen.
     for (name, d) in [
         ("horizontal", "M0 40H100V60H0Z"),
         ("vertical", "M40 0H60V100H40Z"),

@@ -1,5 +1,5 @@
-//! `check --pairs`: the report has a row for each pair of a table, or one per direction with
-//! `--both`, including failed pairs. Also the refusal of invalid tables.
+//! Tests of `check --pairs`: the report has a row for each pair of the table, also if the pair
+//! fails; with `--both` it has two rows, one for each direction. Invalid tables are refused.
 
 use std::collections::HashMap;
 use std::fs;

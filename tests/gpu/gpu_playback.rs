@@ -142,8 +142,8 @@ pub fn gpu_playback_of_wireframes_matches_solved_frames(renderer: &mut Offscreen
 }
 
 /// If vertex shaders can read no more storage buffers than Bevy itself needs, the CPU plays the
-/// recording, with the same result. (Without any storage buffers Bevy's software renderer draws
-/// nothing.)
+/// recording, with the same result. (The test does not forbid all storage buffers, because Bevy
+/// then draws nothing on a software adapter.)
 pub fn without_storage_buffers_the_cpu_plays(_: &mut OffscreenRenderer) {
     let mut renderer = OffscreenRenderer::open(Some(WgpuLimits {
         max_storage_buffers_per_shader_stage: 3,
@@ -169,7 +169,7 @@ pub fn recordings_are_released_with_their_transitions(renderer: &mut OffscreenRe
     renderer.clear();
     renderer.place(&RenderedScene::new("second", long.clone()), 0.5);
     renderer.wait_for_gpu_playback();
-    // The transition that replaces it on the same entity is not recorded yet.
+    // The second transition replaces the first on the same entity, but is not recorded yet.
     renderer.replace(&short);
     for k in 0..20 {
         renderer.seek(f64::from(k) / 20.0);

@@ -37,8 +37,8 @@ pub struct RenderedScene {
     /// Width and height of the image in pixels.
     pub size: [u32; 2],
     pub view: Bounds,
-    /// Maximum number of misplaced pixels: those whose side of the contour differs between GPU and
-    /// CPU although they are more than one pixel away from it.
+    /// Maximum number of misplaced pixels: pixels that one image shows inside the contour and the
+    /// other outside, and that are more than one pixel away from the contour.
     pub max_misplaced_pixels: usize,
 }
 
@@ -117,7 +117,7 @@ impl OffscreenRenderer {
         image
     }
 
-    /// Puts a scene at `t` on the stage, where it stays until [`Self::clear`].
+    /// Puts a scene on the stage, with `t` as its blend parameter; [`Self::clear`] removes it.
     pub fn place(&mut self, scene: &RenderedScene, t: f64) {
         let world = self.app.world_mut();
         let entity = world.spawn((

@@ -38,8 +38,8 @@ pub fn spiral(turn: f64) -> Transition {
     })
 }
 
-/// A triangulated strip of `columns` columns, whose target is its image under the map `bent`;
-/// `offset` is added to all coordinates.
+/// Transition from a triangulated strip with `columns` columns to the image of the strip under the
+/// map `bent`; `offset` is added to all coordinates of both.
 fn strip(columns: u32, offset: f64, bent: impl Fn(DVec2) -> DVec2) -> Transition {
     let mesh = |map: &dyn Fn(DVec2) -> DVec2| {
         let rows = 4;
@@ -120,8 +120,8 @@ fn ring(centre: DVec2, radius: f64, squash: f64) -> Vec<DVec2> {
         .collect()
 }
 
-/// Field blends from a ring to two ellipses, with their names: two blends of logarithms of
-/// distances with different ε, and one of the distances themselves.
+/// Field blends from an annulus to two ellipses, with their names. Two use the logarithmic scale of
+/// distances, with different lengths `epsilon`; one uses the linear scale.
 pub fn field() -> Vec<(&'static str, Transition)> {
     let regions = |rings: &[Vec<DVec2>]| {
         design(DesignForm::Outline(

@@ -211,7 +211,8 @@ fn svg_frames(text: &str, frames: &[(f64, f64)], fps: f64) -> String {
     )
 }
 
-/// HTML of a row of copies of the exported page `film.html`; each copy shows the t of one frame.
+/// HTML of a row of copies of the exported page `film.html`, one for each frame of `frames`; each
+/// copy shows its film at the t of its frame.
 fn page_frames(frames: &[(f64, f64)]) -> String {
     let frame = |(_, t): &(f64, f64)| format!("<iframe src=\"film.html#t={t}&bare\"></iframe>");
     frames.iter().map(frame).collect()

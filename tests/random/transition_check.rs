@@ -1,5 +1,5 @@
-//! Checks that the transition between two polygons must pass for every input, and counts of defects
-//! that it may have.
+//! Checks the transition between two polygons. Some properties must hold for all polygons; other
+//! defects are allowed, and are counted.
 
 use super::Rings;
 use morphospace::geometry::orient2d;

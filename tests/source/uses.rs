@@ -210,7 +210,8 @@ impl<'ast> Visit<'ast> for Module {
     fn visit_macro(&mut self, mac: &'ast syn::Macro) {
         let arguments = Punctuated::<syn::Expr, syn::Token![,]>::parse_terminated;
         if let Ok(arguments) = mac.parse_body_with(arguments) {
-            // The parsed arguments live only as long as this call, so the names are copied.
+            // The parsed arguments of the macro live only as long as this call, too short for
+            // `self`. So a temporary module collects the names.
             let mut inside = Self::default();
             arguments.iter().for_each(|e| inside.visit_expr(e));
             self.named.append(&mut inside.named);

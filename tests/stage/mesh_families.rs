@@ -1,4 +1,4 @@
-//! Blends of several meshes with the same faces by weights.
+//! Tests of blends of several meshes by weights; the meshes must have the same faces.
 
 use super::{bare_app, drawing_app, rotated, straight, strip, update_until, vertices};
 use bevy::prelude::*;

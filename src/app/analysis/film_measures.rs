@@ -19,13 +19,13 @@ use crate::transition::Transition;
 use crate::warp::WarpKind;
 use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan};
 
-/// Number of values of t at which a film is sampled for the check and the graphs: both ends and 63
-/// between them, including halves and quarters. More samples would find shorter defects and take
-/// longer (heuristic).
+/// Number of values of t at which a film is sampled for the check and the graphs: 0, 1 and 63
+/// evenly spaced values between them, among them 1/4, 1/2 and 3/4. More samples would find shorter
+/// defects and take longer (heuristic).
 pub const FILM_SAMPLES: usize = 65;
 
-/// Time after which a running measurement is shown and Esc cancels it. A shorter one ends before
-/// the user could press Esc because of it (heuristic).
+/// Time after which a running measurement is shown as work in progress and can be cancelled with
+/// Esc. A measurement that takes less time ends before the user could react to it (heuristic).
 const SHOWN_AFTER: Duration = Duration::from_millis(1000);
 
 /// Measures of a film over time, and the result of the check.
@@ -45,8 +45,8 @@ pub struct StageMeasures {
     measures: Option<FilmMeasures>,
     /// Whether measuring has ended; if it was cancelled or failed, `measures` is `None`.
     is_done: bool,
-    /// Measures of other segments, which return to the stage while a film of several segments
-    /// plays.
+    /// Measures of other segments of the film. They are reused when playback puts those segments on
+    /// the stage again.
     memo: TransitionMemo<FilmMeasures>,
 }
 
@@ -194,7 +194,8 @@ fn apply_remedy(project: &mut Project, remedy: &Remedy) {
             project.options.lattice.fold_free = true;
         }
         Remedy::LetFold => project.options.lattice.fold_free = false,
-        // These remedies need the user's hand or a trial; `is_one_click` gives them no button.
+        // All other remedies need a decision by the user or a trial, so `is_one_click` gives them
+        // no button.
         _ => {}
     }
 }

@@ -13,7 +13,8 @@ use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::TransitionMethod;
 use crate::work::progress::{OverallProgress, Progress};
 
-/// The chosen method and the rating of its film; pictures have no rating.
+/// The chosen method and the rating of its film; the rating is `None` for a film that blends
+/// pictures.
 type MethodChoice = (TransitionMethod, Option<FilmRating>);
 
 /// The running method search; `None` while no search is running.

@@ -1,9 +1,9 @@
-//! Records the transition on the stage and proves properties of its film for all t, in the
-//! background.
+//! Records the transition on the stage and checks its film at every t for folded faces and crossing
+//! outlines, in the background.
 //!
-//! The transition can be played at once; when its recording is ready, the same frames are read from
-//! memory and nothing changes on screen. The recording is then checked for all t, not only at
-//! samples; the result appears below the stage.
+//! The transition can be played at once. When its recording is ready, the same frames are read from
+//! memory, and nothing changes on screen. The recording is then checked at every t, not only at
+//! samples; the result of this proof appears below the stage.
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
@@ -15,7 +15,8 @@ use crate::app::session::state::Session;
 use crate::recording::{RecordingError, RecordingOptions};
 use crate::transition::{Transition, TransitionProof};
 
-/// The recording and proof in progress, or the result for the transition on the stage.
+/// The recording and the proof (the check at every t) in progress, or their result for the
+/// transition on the stage.
 #[derive(Resource, Debug, Default)]
 pub struct StageRecording {
     options: RecordingOptions,
@@ -23,7 +24,8 @@ pub struct StageRecording {
     job: Option<BackgroundJob<Option<TransitionProof>, RecordingError>>,
     proof: Option<TransitionProof>,
     error: Option<RecordingError>,
-    /// Proofs for other segments, which return to the stage while a film of several segments plays.
+    /// Proofs for other segments of the film. They are reused when playback puts those segments on
+    /// the stage again.
     memo: TransitionMemo<TransitionProof>,
 }
 
@@ -50,15 +52,15 @@ impl StageRecording {
         self.error.as_ref()
     }
 
-    /// Properties proved for the film on the stage; `None` until the proof is complete, and for
-    /// methods without a mesh.
+    /// Result of checking the film on the stage for folds and crossings at every t. `None` until
+    /// the check is complete, and for distance fields, pictures and trusses, which are not checked.
     #[must_use]
     pub fn proof(&self) -> Option<&TransitionProof> {
         self.proof.as_ref()
     }
 
-    /// Name of the current stage of the recording or proof, and its last reported progress in [0,
-    /// 1]; `None` if neither is in progress.
+    /// Name of the current step of the recording or proof, and the last reported progress of both
+    /// together, in [0, 1]; `None` if neither is in progress.
     #[must_use]
     pub fn progress(&self) -> Option<(&'static str, f64)> {
         self.job.as_ref().map(BackgroundJob::progress)

@@ -69,8 +69,8 @@ pub struct Suggestion {
 }
 
 impl SuggestedChange {
-    /// Changes to try for a project, in this order; those that leave the designs as they are come
-    /// first.
+    /// Returns the changes to try for a project, in order. Mirroring and rotating the target come
+    /// last, because they change a design.
     fn all(loaded: &LoadedProject) -> Vec<Self> {
         let matching = &loaded.project.options.matching;
         let other_rules = PartRule::ALL
@@ -78,7 +78,7 @@ impl SuggestedChange {
             .filter(|rule| *rule != matching.parts);
         let mut all: Vec<Self> = other_rules.map(Self::Parts).collect();
         if matching.holes != HoleRule::Auto {
-            // `Auto` includes all other rules.
+            // `Auto` uses the best of the other rules, so those are not tried one by one.
             all.push(Self::Holes(HoleRule::Auto));
         }
         if loaded.project.fit == DesignFit::AsDrawn {
@@ -104,7 +104,7 @@ impl SuggestedChange {
         all
     }
 
-    /// Whether the target appears mirrored or rotated.
+    /// Whether the change mirrors or rotates the target.
     fn changes_the_target(self) -> bool {
         matches!(self, Self::Mirror | Self::Turn(_))
     }

@@ -15,7 +15,8 @@ use crate::app::session::state::Session;
 /// (heuristic).
 const QUIET_TIME: Duration = Duration::from_millis(500);
 
-/// Preferences that the estimate depends on; it depends on the project, too.
+/// Export preferences for which an estimate was made. A new estimate is made when they or the
+/// project change.
 type EstimateKey = (FilmExportOptions, Option<FilmFileFormat>);
 
 /// Estimate for the current export settings; made only while they are shown.

@@ -33,8 +33,8 @@ impl FilmExporter {
         self.job.as_ref().map(|job| ("Exporting", job.progress().1))
     }
 
-    /// Image of the frame being exported; `None` until the first one is drawn, and without an
-    /// export.
+    /// Image of the frame being exported; `None` until the first image is drawn, and while no
+    /// export is running.
     #[must_use]
     pub fn preview(&self) -> Option<Arc<RgbaImage>> {
         self.job.as_ref().and_then(|_| self.preview.get())

@@ -43,7 +43,8 @@ pub enum FilmFramingError {
     /// The timing is invalid, for example because the film has no duration.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// The frame rate, the length or an end of the film is out of range.
+    /// The frame rate or the number of frames is out of range, or the first or last t is not
+    /// finite.
     #[error(transparent)]
     Film(#[from] FilmSpecError),
     /// The film's width or height in pixels is out of range.
@@ -70,7 +71,7 @@ pub fn frame_film(
     Ok((film, view))
 }
 
-/// Updates the frame when the project or the export settings change.
+/// Updates the film's frame when the project or the export settings change.
 pub fn follow(
     session: Res<Session>,
     preferences: Res<Preferences>,

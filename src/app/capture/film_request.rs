@@ -148,10 +148,11 @@ impl FilmRequest {
         })
     }
 
-    /// Exports the film under a free name; returns its path.
+    /// Exports the film under a name that is not in use; returns its path.
     ///
     /// # Errors
-    /// The settings give no film, or the film cannot be written; then no part of it is left.
+    /// The settings give no film, or the film cannot be written. In this case no part of it is
+    /// left.
     pub fn export(
         self,
         preview: &FilmPreview,
@@ -171,8 +172,8 @@ impl FilmRequest {
         Ok(move_to_free_name(&path, &self.folder, &self.stem)?)
     }
 
-    /// Path in `folder` of a file with the export's extension or, for PNG images, of a new empty
-    /// folder.
+    /// Returns the path of the export in `folder`: a file `name` with the extension of the file
+    /// type or, for PNG images, a folder `name`, which is created.
     fn path_in(&self, folder: &Path, name: &str) -> std::io::Result<PathBuf> {
         let path = folder.join(name);
         match self.format {
@@ -188,7 +189,7 @@ impl FilmRequest {
     /// extrapolates.
     ///
     /// # Errors
-    /// There is no film, or those frames cannot be written.
+    /// The settings give no film, or the exported frames cannot be written.
     pub fn estimate_cost(self, progress: &dyn Progress) -> Result<FilmCost, FilmExportError> {
         let folder = self.scratch.create_temp_dir()?;
         let (camera, film) = self.camera_and_film()?;
@@ -271,9 +272,9 @@ impl FilmRequest {
 
 /// Returns the index of the first of the [`TRIAL_FRAMES`] trial frames; 0 if there are none.
 ///
-/// Trial frames are consecutive frames with a change of t from each to the next. Of all such
-/// sections of the film, they are the one whose mean speed is closest to that of the film without
-/// its pauses. Pauses and fast sections would be unrepresentative.
+/// Trial frames are consecutive frames, and t changes from each to the next. Among all sections of
+/// the film with this property, the one is chosen whose mean speed is closest to that of the film
+/// without its pauses, because pauses and fast sections would not be representative.
 fn typical_start(times: &[f64]) -> usize {
     let moves: Vec<f64> = times
         .windows(2)
@@ -300,8 +301,8 @@ fn size_on_disk(path: &Path) -> std::io::Result<u64> {
     Ok(all)
 }
 
-/// Progress receiver that forwards all reports and now and then draws the current frame for the
-/// preview.
+/// Progress receiver that forwards all reports. It also draws the current frame for the preview, at
+/// most once per [`PREVIEW_EVERY`].
 struct PreviewingProgress<'a> {
     camera: Camera,
     times: &'a [f64],

@@ -171,7 +171,7 @@ impl MatchEditor {
         let Some((side, grab)) = self.grabbed else {
             return;
         };
-        // A drag across the middle stays in the design it started in.
+        // A drag that leaves the pane of its design still acts on the design in which it started.
         let touch = EditorPointer { side, ..touch };
         let grab = make_explicit(grab, sheet, matching);
         self.grabbed = Some((side, grab));
@@ -277,7 +277,7 @@ impl MatchEditor {
     fn pair(&mut self, touch: EditorPointer, sheet: &MatchSheet, matching: &mut MatchSettings) {
         let Some(part) = sheet.part_at(touch.side, touch.position, touch.pick_radius) else {
             match self.first_part.take() {
-                // A click on empty space of the other design: the part has no partner.
+                // A click on empty space of the other design marks the first part as unmatched.
                 Some((side, part, at)) if side != touch.side => {
                     unlink(
                         sheet,
@@ -310,7 +310,7 @@ impl MatchEditor {
         self.refusal = None;
         if let Some(handle) = sheet.handle_at(touch) {
             remove_handle(handle, sheet, matching);
-            // Later entries of the list have new indices now.
+            // Deleting an entry changes the indices of later entries, so old indices may be wrong.
             (self.selected, self.hovered) = (None, None);
         } else if self.tool == EditorTool::Parts {
             let mut parts = [None; 2];
@@ -422,7 +422,7 @@ impl MatchSheet {
         SourceTarget::from_fn(|side| self.to_design(side, pair[side]))
     }
 
-    /// Converts one end of a pair from its design's own coordinates to the frame.
+    /// Converts the point of a pair in one design from that design's own coordinates to the frame.
     fn to_frame(&self, pair: &PointPair, side: Side) -> DVec2 {
         self.frame_from_design[side].apply(pair[side])
     }

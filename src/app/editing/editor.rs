@@ -16,7 +16,7 @@ pub enum EditorHandle {
     Feature(usize),
     /// An end of a cut, by the cut's index on the sheet.
     Cut(usize, CutEnd),
-    /// End 0 or 1 of a line, by the line's index in the project.
+    /// An end of a line: the line's index in the project, and 0 or 1 for the end.
     Line(usize, usize),
 }
 
@@ -40,7 +40,7 @@ pub enum EditorGrab {
     AutomaticCut(usize, CutEnd),
     /// A cut set by the user, by its index in the project.
     Cut(usize, CutEnd),
-    /// End 0 or 1 of a line, by the line's index in the project.
+    /// An end of a line: the line's index in the project, and 0 or 1 for the end.
     Line(usize, usize),
     /// A new line that starts at this point; created in the project when the pointer moves.
     NewLine(DVec2),
@@ -74,7 +74,7 @@ pub struct MatchEditor {
     pub grabbed: Option<(Side, EditorGrab)>,
     /// The first of two parts being paired: design, index, and the point that was clicked.
     pub first_part: Option<(Side, usize, DVec2)>,
-    /// Reason why the last click had no effect, as a message; `None` if it had one.
+    /// Message that says why the last click had no effect; `None` if the click had an effect.
     pub refusal: Option<&'static str>,
     /// Pan and zoom of the designs and the film.
     pub panes: EditorPanes,

@@ -9,8 +9,9 @@ use crate::correspondence::PointPair;
 /// earlier one: a new pin shifts matched points slightly along the outline (heuristic).
 pub const SAME_POINT_DISTANCE: f64 = 0.02;
 
-/// Letter index of each of `points`, 0 for a. A point within `reach` of one in `before`, in the
-/// source or in the target, takes over its letter; the others get the first letters that are free.
+/// Letter index of each of `points`; 0 is the letter a. If a point lies within `reach` of a point
+/// in `before`, in the source or in the target, it takes over that point's letter. The others get
+/// the first letters that are free.
 #[must_use]
 pub fn stable_letters(
     points: &[PointPair],
@@ -52,7 +53,8 @@ pub fn point_label(number: usize) -> String {
     letter(number, b'a')
 }
 
-/// Label of the piece with the index `number`: A to Z, then A2, B2 …
+/// Label of the piece (a pair of matched parts, or an unmatched part) with the index `number`: A to
+/// Z, then A2, B2 …
 #[must_use]
 pub fn part_label(number: usize) -> String {
     letter(number, b'A')

@@ -32,7 +32,8 @@ impl PaneView {
             return;
         }
         let zoom = (self.zoom * factor).clamp(ZOOM_RANGE[0], ZOOM_RANGE[1]);
-        // The point under `at` is (at − pan) / zoom from the centre, before and after.
+        // Zooming keeps the content under `at` in place: (at − pan) / zoom, the offset of this
+        // content from the centre, is the same before and after.
         self.pan = at + (self.pan - at) * (zoom / self.zoom);
         self.zoom = zoom;
     }

@@ -34,8 +34,8 @@ named! { StaggerOrder {
     FromTheMiddle: "from-the-middle", "From the centre", "Part nearest to the centre starts first";
 } }
 
-/// For each piece, the index in `times` of the time window that applies to it; the last one, if
-/// several apply.
+/// For each piece, the index in `times` of the time window that applies to it, or of the last one
+/// if several apply; `None` if none applies.
 #[must_use]
 pub fn time_of_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Option<usize>> {
     let mut time_of_piece = vec![None; sheet.pieces.len()];
@@ -58,8 +58,8 @@ pub fn set_part_time(
     let time_of_piece = time_of_pieces(sheet, times);
     let pieces_of_time = pieces_of_times(sheet, times);
     let is_removed = |k: usize| pieces_of_time[k].contains(&piece);
-    // Removed entries may also apply to other pieces of the same part, which get entries of their
-    // own.
+    // A removed entry may also apply to other pieces of the same part. Each of these pieces gets an
+    // entry of its own with the same time window.
     let remaining = time_of_piece
         .iter()
         .enumerate()
@@ -110,7 +110,8 @@ fn round_to_thousandth(t: f64) -> f64 {
     (t.clamp(0.0, 1.0) * 1000.0).round() / 1000.0
 }
 
-/// Entry for the project with the time window of a piece, which a point of the piece identifies.
+/// Project entry for the time window `clock` of a piece. It identifies the piece by the point at
+/// which the label of the piece is placed.
 fn part_time_of_piece(sheet: &MatchSheet, piece: usize, clock: PartClock) -> Option<PartTime> {
     let side = identifying_side(sheet, piece);
     let at = sheet.frame_from_design[side]
@@ -126,8 +127,8 @@ fn part_time_of_piece(sheet: &MatchSheet, piece: usize, clock: PartClock) -> Opt
     })
 }
 
-/// The design whose point identifies a piece: one in which no other piece has the same part, or
-/// else the first that contains the piece.
+/// Returns the design in which a point identifies the piece: one in which the part of the piece
+/// belongs to no other piece or, if there is none, the first design that contains the piece.
 fn identifying_side(sheet: &MatchSheet, piece: usize) -> Side {
     let parts = &sheet.pieces[piece].parts;
     let is_only_piece_in = |side: &Side| {
@@ -146,8 +147,8 @@ fn identifying_side(sheet: &MatchSheet, piece: usize) -> Side {
     identifying.unwrap_or(Side::Source)
 }
 
-/// For each time window, the pieces it applies to: those of the topmost part that contains its
-/// point, or else of the nearest part.
+/// For each time window, the pieces to which it applies: all pieces of the topmost part that
+/// contains the point of the time window or, if no part contains this point, of the nearest part.
 fn pieces_of_times(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Vec<usize>> {
     let mut rings_of_piece: Vec<Vec<&SheetRing>> = vec![Vec::new(); sheet.pieces.len()];
     for ring in &sheet.rings {

@@ -24,8 +24,8 @@ impl MatchSheet {
         }
     }
 
-    /// The cut to draw: as the user requested it while it is dragged, otherwise as the match uses
-    /// it.
+    /// The cut to draw: the cut as requested while the user drags it, otherwise the cut that the
+    /// match uses.
     #[must_use]
     pub fn cut_to_draw(&self, cut: &SheetCut, grab: Option<EditorGrab>) -> RingCut {
         let is_dragged =

@@ -93,8 +93,8 @@ pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2>
             .max_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, at)| at)
     };
-    // If the middle runs along an edge or through a hole, another height has more room; nearly
-    // covered shapes are visible at few heights only.
+    // Five heights are compared, because the middle may run along an edge or through a hole. If
+    // nothing is free at these heights, the shape is nearly covered, and more heights are tried.
     let dense_shares: [f64; 31] = std::array::from_fn(|k| (k + 1) as f64 / 32.0);
     widest(&[0.5, 0.4, 0.6, 0.25, 0.75]).or_else(|| widest(&dense_shares))
 }
@@ -123,8 +123,8 @@ pub fn turning_angle(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }
 
-/// Arc-length position of each vertex, as a fraction of the ring's length from 0 at the first
-/// vertex, and the length.
+/// Returns the arc-length position of each vertex, and the length of the ring. Positions are
+/// fractions of this length; the first vertex is at 0.
 pub fn arc_length_positions(points: &[DVec2]) -> (Vec<f64>, f64) {
     let mut places = Vec::with_capacity(points.len());
     let mut length = 0.0;

@@ -19,9 +19,9 @@ const MIN_PER_RING: usize = 2;
 /// flattened curves hardly to count (heuristic).
 const TURN_REACH: f64 = 0.03;
 
-/// Score of a vertex that is no corner. A vertex at which the ring reverses its direction in both
-/// designs scores 1. Above 0, so that circles get points too, and well below the ½ of a square's
-/// corner (heuristic).
+/// Score that every vertex has, even if it is no corner. It is above 0, so that circles get points
+/// too, and far below the scores that corners add: ½ for the corner of a square, 1 where the ring
+/// reverses its direction in both designs (heuristic).
 const BASE_SCORE: f64 = 0.02;
 
 /// Selects points of the matched rings, keeping a distance from pins and from each other.
@@ -39,15 +39,16 @@ pub fn choose_sample_points(rings: &[SheetRing], pins: &[PointPair]) -> Vec<Poin
     features
 }
 
-/// Selects vertices greedily: the highest score, weighted by the distance to those selected and to
-/// pins.
+/// Selects at most `count` vertices greedily: in each step the one with the largest product of its
+/// corner score and its distance from pins and from the vertices already selected.
 fn choose_on_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<PointPair> {
     let scores = scores(ring);
     let mut occupied: Vec<f64> = pins
         .iter()
         .filter_map(|pin| ring.position_of(pin))
         .collect();
-    // Minimum gap: half of that between evenly spaced points, as a fraction of the ring's length.
+    // Minimum gap, as a fraction of the ring's length: half the gap that evenly spaced vertices and
+    // pins would have.
     let min_gap = 0.5 / (count + occupied.len()) as f64;
     let mut vertices = Vec::new();
     for _ in 0..count {

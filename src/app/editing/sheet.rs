@@ -22,7 +22,6 @@ const CUT_SHIFT: f64 = 0.25;
 
 /// Both designs and their match, placed in the common frame.
 #[derive(Resource, Clone, Debug, Default)]
-#[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "read by tests"))]
 pub struct MatchSheet {
     /// Source and target; `None` if they are not both outlines.
     pub sides: Option<[SheetSide; 2]>,
@@ -36,17 +35,16 @@ pub struct MatchSheet {
     pub faulty_pins: Vec<usize>,
     /// Automatically matched points that are shown.
     pub features: Vec<PointPair>,
-    /// Letter index of each point in `features`, 0 for a.
+    /// Letter index of each point in `features`; 0 is the letter a.
     pub letters: Vec<usize>,
-    /// Points of the previous sheet that are missing here, with their letter indices. They may
-    /// return, as when the best film replaces a draft.
+    /// Points of the previous sheet that are missing on this one, with their letter indices. They
+    /// keep their letters if the next sheet contains them again, as when the best film replaces a
+    /// draft.
     pub missing_points: Vec<(PointPair, usize)>,
     /// Pairs of lines of the project, in frame coordinates.
     pub lines: Vec<LinePair>,
     /// Content of the film; it decides whether pins move a boundary or the plane.
     pub content: Option<ContentKind>,
-    /// Pairs of parts set by the user, each given by a point in the source and one in the target.
-    pub links: Vec<PointPair>,
     /// Cuts from holes to the boundaries around them, automatic or set by the user.
     pub cuts: Vec<SheetCut>,
     /// Transformations from each design's own coordinates to the frame.
@@ -105,8 +103,8 @@ pub struct SheetCut {
 }
 
 impl MatchSheet {
-    /// Lays out a pair of designs, given as imported, in the frame. `paint` is the rule by which
-    /// their paint layers were matched. The sheet is empty if one of them is not an outline.
+    /// Lays out a pair of imported designs in the frame. `paint` is the rule by which their paint
+    /// layers were matched. The sheet is empty if a design is not an outline.
     #[must_use]
     pub fn new(
         designs: [&Design; 2],
@@ -134,7 +132,6 @@ impl MatchSheet {
             pins: placed.pins,
             lines: placed.lines,
             content: None,
-            links: placed.links,
             faulty_pins: Vec::new(),
             letters: Vec::new(),
             missing_points: Vec::new(),
@@ -338,7 +335,7 @@ fn label_pieces(
     pieces.iter().enumerate().map(piece).collect()
 }
 
-/// Position of a piece's label, outside of the parts above it.
+/// Position of a piece's label, outside the parts that are painted above the piece.
 fn label_position(piece: &PieceMatch, side: Side, above: &[&[Vec<DVec2>]]) -> DVec2 {
     let rings = piece.rings.iter().chain(&piece.lone);
     let rings = rings.map(|ring| [&ring.source, &ring.target][side].as_slice());

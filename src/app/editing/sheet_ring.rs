@@ -13,8 +13,8 @@ pub struct SheetRing {
     pub kind: RingKind,
     /// Vertices in the source and in the target.
     pub sides: [Vec<DVec2>; 2],
-    /// Arc-length position of each vertex, 0 to 1. For a matched ring: the mean of both designs. For
-    /// a ring that is a single point in one design: the position in the other design.
+    /// Arc-length position of each vertex, 0 to 1. For a matched ring, this is the mean of both
+    /// designs; for a ring that is a single point in one design, the position in the other design.
     pub positions: Vec<f64>,
 }
 

@@ -18,19 +18,20 @@ pub struct DroppedDesign {
 }
 
 impl DroppedDesign {
-    /// The dropped design, while the question is open.
+    /// The dropped or opened design, while the user is asked where it should go.
     #[must_use]
     pub fn undecided(&self) -> Option<&Path> {
         self.undecided.as_deref()
     }
 
-    /// Whether the question is open.
+    /// Whether the user is being asked where a dropped or opened design should go.
     #[must_use]
     pub fn is_pending(&self) -> bool {
         self.undecided.is_some()
     }
 
-    /// Opens the question where this single design should go.
+    /// Asks the user whether this single design replaces a design of the open project or is added
+    /// to it.
     pub fn ask(&mut self, path: PathBuf) {
         self.undecided = Some(path);
     }

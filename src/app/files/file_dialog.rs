@@ -21,7 +21,8 @@ pub enum DialogPurpose {
     Open,
     /// Replace the design with this index.
     Replace(usize),
-    /// Insert designs before the design with this index; the number of designs appends them.
+    /// Insert designs before the design with this index, or after all designs if the index equals
+    /// the number of designs.
     Insert(usize),
     /// Save the project, with this suggested file name.
     Save(String),

@@ -20,8 +20,8 @@ use crate::work::progress::Progress;
 /// Width and height of a strip in pixels: twice its size on screen at scale factor 1.
 pub const STRIP_PX: (u32, u32) = (384, 128);
 
-/// Number of frames in the strip of a project with two designs: both ends and one in between
-/// (heuristic).
+/// Number of frames in the strip of a project with two designs: the first and the last frame of the
+/// film, and one halfway between them (heuristic).
 const FRAMES: usize = 3;
 
 /// Maximum number of frames in a strip (heuristic: more would be too small).

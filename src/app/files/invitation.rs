@@ -10,8 +10,8 @@ use crate::project::gallery::GalleryEntry;
 /// and every part of it moves.
 pub const START_PROJECT: &str = "gecko";
 
-/// Names of the gallery projects that the invitation offers, in this order: one for each kind of
-/// design first.
+/// Names of the gallery projects that the invitation offers, in this order. The list begins with
+/// one project for each kind of design.
 pub const EXAMPLES: [&str; 10] = [
     "day-to-night",
     "three-portraits",

@@ -50,7 +50,8 @@ pub fn open(
                     LoadRequest::File(project.clone())
                 }
                 // If a project is open, ask whether the single design replaces or extends its
-                // designs. The project that plays next to the invitation does not count.
+                // designs. A project that plays next to the invitation was not opened by the user,
+                // so it does not count.
                 [design] if session.project().is_some() && !invitation.is_shown() => {
                     drop.ask(design.clone());
                     continue;
@@ -71,7 +72,7 @@ pub fn open(
             _ => continue,
         };
         if session.is_dirty() {
-            // The intent is sent again after the answer.
+            // The intent is sent again once the user has answered.
             question.ask(intent.clone(), UnsavedKind::Changes, session.unsaved_text());
         } else {
             to_play.0 = match (intent, &request) {
@@ -177,7 +178,7 @@ fn cycle_play_mode(mode: &mut PlayMode) {
     };
 }
 
-/// Replaces a design's file and drops settings that refer to points of the old one.
+/// Replaces a design's file and drops the settings that refer to points of the old design.
 fn replace_design(project: &mut Project, index: usize, path: &Path) {
     let Some(entry) = project.designs.get_mut(index) else {
         return;
@@ -319,7 +320,7 @@ pub fn poll(
         Some(WorkOutcome::RebuildFailed) if editor.is_open => return,
         Some(WorkOutcome::RebuildFailed) => {}
         Some(WorkOutcome::Rebuilt) => {
-            // The last segment may no longer exist.
+            // The new film may have fewer segments, so that t lies beyond its last design.
             let end = session.segment_count() as f64;
             if playback.t() > end && session.timing().to <= end {
                 let (timing, stops) = (*session.timing(), session.stops().to_vec());
@@ -343,8 +344,8 @@ pub fn poll(
             *state.is_to_play = plays && !presentation.is_active();
         }
     }
-    // Playback starts once the requested film is there, even as a draft, unless the user has
-    // already moved t.
+    // Playback starts once a film by the requested method, even a draft, is on the stage, unless
+    // the user has already moved t.
     if *state.is_to_play && session.has_film() {
         *state.is_to_play = false;
         if !playback.is_playing() && playback.t() == session.timing().from {
@@ -354,7 +355,8 @@ pub fn poll(
     notices.resolve(NoticeTopic::Opening);
     show_notes(session.all_designs(), &mut state.reported, &mut notices);
     if let Some(problem) = session.problem() {
-        // Only the latest problem is shown: earlier settings are no longer requested.
+        // Only the latest problem is shown, because earlier ones concern settings that have been
+        // replaced.
         notices.resolve(NoticeTopic::Transition);
         notices.problem(
             NoticeTopic::Transition,

@@ -26,7 +26,8 @@ pub enum EditorAction {
     Release,
     /// A click: press and release without a drag.
     Click(EditorPointer),
-    /// Delete the pin, line or cut under the pointer.
+    /// Delete the pin, line or cut under the pointer or, with the parts tool, all pairings of the
+    /// part under the pointer.
     Remove(EditorPointer),
     /// Delete the selected pin, line or cut.
     RemoveSelected,

@@ -1,5 +1,5 @@
-//! Keyboard focus, text selection, and gestures of the mouse or keyboard, whose changes form one
-//! undo step each.
+//! Keyboard focus, text selection, and gestures of the mouse or keyboard. All changes made during
+//! one gesture form one undo step.
 
 use bevy::input::ButtonInput;
 use bevy::prelude::{MouseButton, Res, ResMut, Resource};

@@ -86,10 +86,11 @@ pub enum Intent {
     AskReplace(usize),
     /// Replace the design with this index by this file.
     ReplaceDesign(usize, PathBuf),
-    /// Open the dialog that asks for designs to insert at this index; the number of designs
-    /// appends.
+    /// Open the dialog that asks for designs to insert before the design with this index, or after
+    /// all designs if the index equals the number of designs.
     AskInsert(usize),
-    /// Insert these designs at this index; the number of designs appends.
+    /// Insert these designs before the design with this index, or after all designs if the index
+    /// equals the number of designs.
     InsertDesigns(usize, Vec<PathBuf>),
     /// Replace the list of designs: each entry is new or names the index it had before.
     ReorderDesigns(Vec<MovedDesigns>),
@@ -114,7 +115,7 @@ pub enum Intent {
     ExportFilm,
     /// Export a comparison sheet of all methods for this pair, in the background.
     ExportMethodSheet,
-    /// Cancel building the transition.
+    /// Cancel opening or building a project.
     CancelWork,
     /// Build anyway, although the estimate exceeds the time or memory limit.
     BuildAnyway,
@@ -226,7 +227,8 @@ pub enum RecoveryAnswer {
 }
 
 impl Intent {
-    /// Whether the intent is allowed during a talk: it shows the audience nothing but the drawing.
+    /// Whether the intent is allowed during a talk, because it shows the audience nothing but the
+    /// drawing.
     #[must_use]
     pub const fn is_allowed_in_talk(&self) -> bool {
         matches!(

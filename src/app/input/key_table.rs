@@ -254,8 +254,9 @@ mod tests {
 
     use super::*;
 
-    /// Key combinations in one row of the documented table, from its columns `keys`, such as `R`,
-    /// `→ ←`, `1 – 9` or `Ctrl+S, Ctrl+O`, and `does`.
+    /// Key combinations in one row of the documented table. `keys` is the cell that lists the keys,
+    /// such as `R`, `→ ←`, `1 – 9` or `Ctrl+S, Ctrl+O`; `does` is the cell that describes the
+    /// action.
     fn chords(keys: &str, does: &str) -> BTreeSet<String> {
         let keys = keys.replace("Page ", "Page_").replace('`', "");
         let mut words: Vec<String> = keys
@@ -292,7 +293,8 @@ mod tests {
         let map = KeyMap::default();
         let bindings = map.rows().iter().flat_map(|row| &row.bindings);
         let bound: BTreeSet<String> = bindings
-            // Backspace appears twice: the page lists only its meaning outside the editor.
+            // Backspace has two bindings, of which the page lists only the one outside the editor.
+            // The set merges them.
             .map(KeyBinding::chord)
             .collect();
         assert_eq!(documented, bound);

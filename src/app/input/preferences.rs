@@ -87,9 +87,9 @@ impl Default for FilmExportOptions {
 }
 
 impl FilmExportOptions {
-    /// First and last t of the export; `None` for the end of the whole film. Drops values that are
-    /// neither an end nor a stop of the project: another project may be open by now, or a stop may
-    /// have been removed.
+    /// First and last t of the export; `None` stands for the first or last t of the whole film.
+    /// Drops values that are neither one of these two nor a stop: another project may be open by
+    /// now, or a stop may have been removed.
     #[must_use]
     pub fn valid_range(&self, whole_film: &Timing, stops: &[TransitionStop]) -> [Option<f64>; 2] {
         let exists = |t: &f64| {
@@ -153,7 +153,7 @@ pub enum ImageScale {
     /// As many pixels as the stage has on screen.
     #[default]
     One,
-    /// Twice as many pixels along each side.
+    /// Twice as many pixels along each side as the stage has on screen.
     Two,
     /// 3840 pixels along the longer side.
     FourK,

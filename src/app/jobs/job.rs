@@ -94,8 +94,8 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
         std::thread::Builder::new()
             .name(name.to_owned())
             .spawn(move || {
-                // Declared before the sender, so that it is dropped after it and wakes the window
-                // last.
+                // Local variables are dropped in reverse order: first the sender, then `_wakes`,
+                // which wakes the window last.
                 let _wakes = WakeOnDrop;
                 let sender = sender;
                 // Sending fails once the job has been dropped; the result is then unwanted.
@@ -139,7 +139,7 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
         self.started.elapsed()
     }
 
-    /// Name of the current stage of the work, and the last reported progress of the whole work in
+    /// Name of the current step of the work, and the last reported progress of the whole work in
     /// [0, 1].
     #[must_use]
     pub fn progress(&self) -> (&'static str, f64) {

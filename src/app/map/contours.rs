@@ -20,7 +20,8 @@ const SAMPLES_PER_SIDE: [usize; 2] = [16, 64];
 /// Side of the square image of the contours, in pixels (heuristic).
 const SIDE_PX: u32 = 704;
 
-/// Number of contours between the smallest and the largest value (heuristic).
+/// Number of contours between the smallest and the largest value of the measure on the map
+/// (heuristic).
 const CONTOURS: f64 = 9.0;
 
 /// Horizontal distance from one hatching line to the next, and width of a line, both in pixels
@@ -45,7 +46,6 @@ pub struct MapContours {
 /// The measure whose contours are shown, if any.
 type ShownMeasure = Option<MapMeasure>;
 
-#[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "read by tests"))]
 impl MapContours {
     /// Image of the contours and hatching; `None` until it is drawn.
     #[must_use]
@@ -56,6 +56,7 @@ impl MapContours {
     /// Values of all measures on the finest grid sampled so far; `None` until the coarse grid is
     /// complete.
     #[must_use]
+    #[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "read by tests"))]
     pub fn landscape(&self) -> Option<&MapLandscape> {
         self.landscape.as_ref()
     }
@@ -130,7 +131,8 @@ fn draw(landscape: &MapLandscape, shown: ShownMeasure, ink: Rgb) -> RgbaImage {
                 Some((value - min) / (max - min) * CONTOURS)
             };
             let centre_height = height(at)?;
-            // Change of the height from one pixel to the next, by forward differences.
+            // Change of the height (the measure's value, in steps of one contour) from one pixel to
+            // the next, by forward differences.
             let slope = DVec2::new(
                 height(at + DVec2::X * px)? - centre_height,
                 height(at + DVec2::Y * px)? - centre_height,

@@ -105,9 +105,10 @@ impl MapView {
         self.recorded.take()
     }
 
-    /// Intent that replaces that of a key while the map is shown; `None` if the key keeps its
-    /// meaning. Arrow keys move the marker; the keys for a new stop, the match editor, the grid and
-    /// the normal speed edit or record the path.
+    /// Returns the intent that replaces the usual intent of a key while the map is shown; `None` if
+    /// the key keeps its meaning. Arrow keys move the marker. Other keys edit the path: the key for
+    /// a new stop extends it, that of the match editor turns drawing on or off, that of the grid
+    /// starts or ends recording, and that of the normal speed removes the last stop.
     #[must_use]
     pub fn map_intent(&self, intent: &Intent) -> Option<Intent> {
         let direction = match intent {
@@ -136,8 +137,8 @@ impl MapView {
         }
     }
 
-    /// Places of all designs on the map after moving one of them to `to`; `None` if it cannot be
-    /// there.
+    /// Places of all designs on the map after moving one of them to `to`. `None` if another design
+    /// is already there, if `to` is not finite, or if the map is not built yet.
     #[must_use]
     pub fn sites_with(&self, design: usize, to: DVec2) -> Option<Vec<DVec2>> {
         let mut sites = self.pictures.as_ref()?.map().sites().to_vec();
@@ -252,7 +253,7 @@ impl MapView {
         true
     }
 
-    /// Starts building the space, as a draft or in the project's own quality.
+    /// Starts building the space of blends in this quality; `None` uses the project's own quality.
     fn start(&mut self, loaded: LoadedProject, quality: Option<BuildQuality>) {
         self.job = Some(BackgroundJob::start("the map", move |progress| {
             let built = loaded.build_space(quality, progress);

@@ -39,7 +39,7 @@ pub struct MapPictures {
     blend: Option<BlendPicture>,
     /// Contours of a measure over the map.
     contours: MapContours,
-    /// Thumbnails of the saved blends, by their place on the map.
+    /// Thumbnails of the saved blends, each with the place of its blend on the map.
     saved_blends: Vec<(DVec2, Arc<RgbaImage>)>,
     /// Whether some saved blends have no thumbnail yet.
     lacks_saved_blends: bool,
@@ -151,7 +151,8 @@ impl MapPictures {
         is_new
     }
 
-    /// Vector drawing of the blend to which `frame` was moved last, on a background colour or none.
+    /// Vector drawing of the blend with the current [`Self::weights`], on the colour `background`;
+    /// the background is transparent if this is `None`.
     #[must_use]
     pub fn drawing(
         &self,

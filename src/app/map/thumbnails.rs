@@ -38,7 +38,7 @@ pub struct MapThumbnails {
 /// Draws the thumbnails of the blends and of the designs.
 ///
 /// # Errors
-/// None in practice: the size is valid.
+/// None in practice: `SIDE_PX` is a valid image size.
 pub fn draw_thumbnails(
     space: &DesignSpace,
     map: &WeightMap,

@@ -34,8 +34,8 @@ pub fn folder() -> Option<PathBuf> {
 pub struct Autosave {
     /// Current slot of this window; `None` switches autosave off, as in tests.
     slot: Option<AutosaveSlot>,
-    /// Slot that this window started with; kept locked once the slot of a recovered project has
-    /// replaced it.
+    /// Slot with which this window started. It is stored here, and so stays locked, once the slot
+    /// of a recovered project has replaced it; `None` before that.
     initial_slot: Option<AutosaveSlot>,
     /// Slot of the project being recovered; it becomes the current slot once the project is open.
     opening_slot: Option<AutosaveSlot>,
@@ -116,7 +116,8 @@ pub fn answer_recovery(
     for intent in intents.read() {
         let answer = match intent {
             Intent::AnswerRecovery(answer) => *answer,
-            // If another question is open above this one, Esc closes that question.
+            // If another question is open above the offer to recover, Esc closes only that
+            // question.
             Intent::Escape if question.text().is_none() => RecoveryAnswer::Later,
             _ => continue,
         };

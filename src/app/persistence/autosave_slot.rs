@@ -10,7 +10,8 @@ use std::time::SystemTime;
 
 use crate::app::session::unsaved_project::UnsavedProject;
 
-/// Maximum number of slots (resource limit: windows open at once, and autosaves to recover).
+/// Maximum number of slots (resource limit: one for each open window and for each autosave that
+/// waits to be recovered).
 const MAX_SLOTS: u32 = 64;
 
 /// A slot that this process has locked.
@@ -18,7 +19,8 @@ const MAX_SLOTS: u32 = 64;
 pub struct AutosaveSlot {
     /// Path of the autosave, which may not exist.
     pub path: PathBuf,
-    /// The lock file is never deleted: another window may be about to lock it.
+    /// The locked file, unlocked on drop. It is never deleted, because another window may be about
+    /// to lock it.
     _lock: File,
 }
 

@@ -131,7 +131,7 @@ pub fn follow(session: Res<Session>, mut recent: ResMut<StoredRecentFiles>) {
     }
     let files = match (session.path(), session.gallery_name()) {
         (Some(path), _) => vec![path.to_owned()],
-        // Gallery projects have cards of their own.
+        // Gallery projects are not listed, because the gallery has a card for each of them.
         (None, Some(_)) => return,
         (None, None) => session.files(),
     };

@@ -65,8 +65,8 @@ impl Default for Playback {
 }
 
 impl Playback {
-    /// The blend parameter: 0 at the first design, 1 at the second and so on; beyond both ends the
-    /// blend extrapolates.
+    /// The blend parameter: 0 at the first design, 1 at the second and so on. Before the first
+    /// design and after the last one the blend extrapolates.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.t
@@ -78,8 +78,9 @@ impl Playback {
         self.motion != PlaybackMotion::Still
     }
 
-    /// Whether another film of the same designs may replace this one unnoticed: while t is at rest
-    /// or near a design, or at any time if the film neither starts nor ends at a design.
+    /// Whether another film of the same designs may replace this one unnoticed: while t is at rest,
+    /// near a design or before the first one, or at any time if the film neither starts nor ends at
+    /// such a t.
     #[must_use]
     pub fn can_swap_film(&self, timing: &Timing) -> bool {
         // At the designs all films of a segment are equal.
@@ -122,8 +123,8 @@ impl Playback {
         };
     }
 
-    /// Stops playback and moves t by a number of hundredths. From a whole hundredth, t moves to a
-    /// whole hundredth without rounding errors that add up.
+    /// Stops playback and moves t by a number of hundredths. If t was a whole hundredth, it stays
+    /// one; rounding errors do not add up.
     pub fn step(&mut self, hundredths: i32) {
         self.motion = PlaybackMotion::Still;
         let t = self.t + f64::from(hundredths) / 100.0;
@@ -139,7 +140,8 @@ impl Playback {
         }
         let film_secs = timing.film_secs(stops);
         let secs = timing.secs_at(self.t, stops);
-        // In the current direction: the start of the film in seconds, and its end as a value of t.
+        // In the direction of playback: the start of the film in seconds, and the end of the film
+        // as a value of t.
         let (start, end) = if self.backwards {
             (film_secs, timing.from)
         } else {
@@ -159,7 +161,8 @@ impl Playback {
     pub fn reverse(&mut self) {
         self.backwards = !self.backwards;
         if let PlaybackMotion::ToStop(motion) = &mut self.motion {
-            // Time at which the eased motion back has the same t as now.
+            // The reversed motion continues at the elapsed time at which its eased t is the current
+            // t.
             let progress = if motion.secs > 0.0 {
                 motion.easing.apply(motion.elapsed / motion.secs)
             } else {
@@ -188,7 +191,7 @@ impl Playback {
         });
     }
 
-    /// The t from which the next stop is counted: the current t, or the stop to which it is already
+    /// The t from which the next stop is counted: the current t, or the stop to which t is already
     /// moving.
     fn heading(&self) -> f64 {
         match self.motion {
@@ -250,8 +253,8 @@ impl Playback {
         self.motion = PlaybackMotion::ToStop(motion);
     }
 
-    /// Moves to the position `unclamped_secs` in the film, in seconds from its start, and handles
-    /// positions beyond its ends.
+    /// Moves to the position `unclamped_secs` in the film, in seconds from the film's start. Beyond
+    /// its start or end, the film stops, repeats or turns round, depending on the play mode.
     fn advance_film(&mut self, unclamped_secs: f64, timing: &Timing, stops: &[TransitionStop]) {
         let film_secs = timing.film_secs(stops);
         let is_past_end = if self.backwards {
@@ -286,8 +289,8 @@ impl Playback {
     }
 }
 
-/// Values of t, in ascending order, between which the keys for stops move: all stops and both ends
-/// of the film.
+/// Values of t, in ascending order, between which the keys for stops move: all stops, and the start
+/// and end of the film.
 #[must_use]
 pub fn landmarks(timing: &Timing, stops: &[TransitionStop]) -> Vec<f64> {
     let mut all: Vec<f64> = stops.iter().map(|stop| stop.t).collect();

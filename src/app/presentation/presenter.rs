@@ -40,12 +40,13 @@ struct ActiveTalk {
     /// Whether t has been moved to the first stop, which requires a film.
     has_begun: bool,
     is_black: bool,
-    /// Whether captions are shown, if the user chose; `None` shows them if a stop has a name.
+    /// The user's choice whether captions are shown. `None` if the user has not chosen; captions
+    /// are then shown if a stop has a name.
     captions: Option<bool>,
     began: Instant,
     /// Seconds since the pointer last moved.
     idle_secs: f32,
-    /// Preferences and window mode to restore afterwards.
+    /// Preferences and window mode to restore after the talk.
     before: (Preferences, Option<WindowMode>),
 }
 

@@ -1,7 +1,8 @@
 //! The speaker's window of a talk: elapsed time, notes and the next stop.
 //!
-//! If there is a second screen, the speaker's window opens by itself when a talk starts, and the
-//! audience's window moves to the second screen. With one screen it opens on request.
+//! If there is a second screen, the audience's window moves to it when a talk starts, and the
+//! speaker's window opens on the first screen. With one screen, the speaker's window opens only on
+//! request.
 
 use std::sync::Arc;
 
@@ -71,8 +72,8 @@ pub fn apply(
     mut audience: Query<(&mut Window, Option<&OnMonitor>), With<PrimaryWindow>>,
     mut commands: Commands,
 ) {
-    // A screen other than that of the audience's window. Some systems do not report a window's
-    // screen; then the speaker's window does not open by itself.
+    // Screen for the audience's window during a talk: one on which this window is not yet. Some
+    // systems do not report a window's screen; then the speaker's window does not open by itself.
     let audience_screen = audience.single().ok().and_then(|(_, on)| Some(on?.0));
     let second = audience_screen.and_then(|first| monitors.iter().find(|screen| *screen != first));
     for intent in intents.read() {

@@ -306,8 +306,8 @@ impl OpenDocument {
             return Ok(false);
         };
         self.loaded.project = match &self.loaded.folder {
-            // The project has been saved to another folder since: its paths must be relative to
-            // that folder.
+            // Since the step was recorded, the project has been saved to another folder, so its
+            // paths must be relative to that folder.
             Some(now) if folder.as_ref() != Some(now) => {
                 save::with_relative_paths(project, folder.as_deref(), now)?
             }
@@ -419,7 +419,8 @@ impl OpenDocument {
     pub fn reset_designs(&mut self) {
         self.must_reread = false;
         self.amend(|now, staged| {
-            // A different number of designs means different segments.
+            // With a different number of designs, the segments differ too, so all settings are
+            // reset.
             if now.designs.len() == staged.designs.len() {
                 now.designs.clone_from(&staged.designs);
                 now.fit = staged.fit;

@@ -21,8 +21,8 @@ use crate::work::progress::{Cancelled, Progress, ProgressShares, ProgressSpan, c
 pub struct BuiltProject {
     /// The project and its designs.
     pub project: LoadedProject,
-    /// Settings that the transitions were built from: those of `project`, or, in an interim result,
-    /// those of the plainest method or of a draft.
+    /// Settings that the transitions were built from: those of `project` or, in an interim result,
+    /// those of the plainest method (a blend without a warp) or of a draft.
     pub settings: Project,
     /// One entry per segment of the path through the designs.
     pub segments: Vec<BuiltSegment>,

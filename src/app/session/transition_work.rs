@@ -17,8 +17,9 @@ use crate::project::Project;
 /// seem stuck (heuristic).
 const ABANDON_AFTER: Duration = Duration::from_millis(1500);
 
-/// Time after which a project being opened is shown by the plainest method. If it were shorter,
-/// every project would appear twice; if longer, the stage would stay empty needlessly (heuristic).
+/// Time after which a project being opened is shown by the plainest method, a blend without a warp.
+/// If it were shorter, every project would appear twice; if longer, the stage would stay empty
+/// needlessly (heuristic).
 const PLAIN_AFTER: Duration = Duration::from_millis(1000);
 
 /// Time after which a draft is shown during a rebuild. If it were shorter, every position of a

@@ -75,8 +75,8 @@ const MIN_WIDTH_WITH_GALLERY: f32 = 880.0;
 /// without and with the editor's film pane.
 const MIN_EDITOR_WIDTH_WITH_GALLERY: [f32; 2] = [1200.0, 1600.0];
 
-/// Installs themes and fonts when an egui context is created. They must be there before the first
-/// frame, because egui panics on a font family that it does not know.
+/// Installs themes and fonts when an egui context is created. They must be installed before the
+/// first frame, because egui panics on a font family that it does not know.
 fn install_theme(added: On<Add, EguiContext>, mut contexts: Query<&mut EguiContext>) -> Result {
     theme::install(contexts.get_mut(added.entity)?.get_mut());
     Ok(())

@@ -17,8 +17,8 @@ use crate::export::{
 use crate::geometry::DVec2;
 use crate::transition::{Sequence, Transition, TransitionStyle};
 
-/// Number of thumbnails for a film of two designs: both ends and every tenth between them
-/// (heuristic).
+/// Number of thumbnails for a film of two designs: one at each design, and one at each tenth of t
+/// between them (heuristic).
 const THUMBNAILS_OF_PAIR: usize = 11;
 
 /// Number of thumbnails for a film with this many segments: about as many as for one segment, but
@@ -118,11 +118,11 @@ pub fn follow(
     });
 }
 
-/// Draws a film at the given times, side by side, each in a cell of the given size in pixels;
-/// straight alpha on a transparent background.
+/// Draws a film at the given times, side by side, each frame in a cell of `cell_px` pixels. The
+/// image has straight alpha on a transparent background.
 ///
 /// # Errors
-/// The row is larger than an image may be.
+/// The row of cells is larger than an image may be.
 pub fn draw_strip(
     sequence: &Sequence,
     style: &TransitionStyle,

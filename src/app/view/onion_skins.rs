@@ -40,8 +40,8 @@ impl OnionSkins {
     }
 }
 
-/// Values of t of all skins: the stops and both ends of the film; without stops, evenly spaced
-/// values.
+/// Values of t of all skins, at most [`MAX_SKINS`]: the stops, and the start and end of the film;
+/// without stops, evenly spaced values.
 fn times(session: &Session) -> Vec<f64> {
     let places = landmarks(session.timing(), session.stops());
     match places.as_slice() {

@@ -45,7 +45,8 @@ pub fn apply(
 /// State that [`fit`] carries from frame to frame.
 #[derive(SystemParam)]
 pub struct FitState<'s> {
-    /// Bounds, size of the stage area and view of the pane at the last fit.
+    /// Values at the last fit: the fitted bounds in the plane, the size of the stage area, and the
+    /// view of the film pane.
     last: Local<'s, Option<(Bounds, Vec2, PaneView)>>,
     /// View of the stage, while the match editor replaces it.
     stage_view: Local<'s, Option<StageView>>,
@@ -110,7 +111,8 @@ pub fn place_camera(
             (old.physical_position, old.physical_size) == (new.physical_position, new.physical_size)
         })
     };
-    // Writing to the camera marks it as changed and looks up its targets again.
+    // Writing to the camera marks it as changed, and Bevy then looks up its targets again, so an
+    // unchanged viewport is not written.
     if !camera.viewport.as_ref().is_some_and(is_same) {
         camera.viewport = viewport;
     }
@@ -147,7 +149,8 @@ pub fn place_comparison_camera(
     if !is_active {
         return;
     }
-    // The same size in pixels as the stage, so that both show the same section of the plane.
+    // The viewport gets the same size in pixels as that of the stage, so that both show the same
+    // section of the plane.
     let viewport = viewport.map(|comparison_view| Viewport {
         physical_size: camera
             .viewport
@@ -162,8 +165,9 @@ pub fn place_comparison_camera(
     *comparison_projection = projection.clone();
 }
 
-/// Viewport of an area, clipped to the window, which may be smaller while it is being resized;
-/// `None`, which stands for the whole window, if nothing is left.
+/// Viewport of an area, clipped to the window, because the window may be smaller than the area
+/// while it is being resized. If nothing is left, returns `None`, with which the camera fills the
+/// whole window.
 fn viewport(area: StageArea, window: &Window) -> Option<Viewport> {
     let scale = window.scale_factor();
     let window_px = window.physical_size();

@@ -27,7 +27,8 @@ pub(super) struct ImportArgs {
     #[arg(long, value_name = "PIXELS")]
     specks: Option<u32>,
 
-    /// Maximum deviation of the outline from the exact boundary, as a fraction of the longer side
+    /// Allowed deviation of an imported outline from the exact boundary, as a fraction of the
+    /// longer side of the picture or page
     #[arg(long, value_name = "FRACTION")]
     tolerance: Option<f64>,
 
@@ -62,7 +63,7 @@ pub(super) struct FieldArgs {
     #[arg(long, value_parser = one_of::<Metric>())]
     metric: Option<Metric>,
 
-    /// Position of the boundary: on the outline, or between grid cells as in the paper
+    /// Position of the boundary: on the outline itself, or between grid cells, in steps
     #[arg(long, value_parser = one_of::<FieldBoundary>())]
     boundary: Option<FieldBoundary>,
 
@@ -106,11 +107,11 @@ pub(super) struct ColourArgs {
     #[arg(long, value_parser = one_of::<NamedEasing>())]
     mix: Option<NamedEasing>,
 
-    /// Value of t at which the target starts to appear
+    /// Value of t at which the target picture starts to appear
     #[arg(long, value_name = "T")]
     mix_from: Option<f64>,
 
-    /// Value of t from which only the target is visible
+    /// Value of t from which only the target picture is visible
     #[arg(long, value_name = "T")]
     mix_to: Option<f64>,
 }

@@ -16,8 +16,9 @@ use crate::warp::{
 use super::super::error::CliError;
 use super::super::value_parsers::{line, one_of, pin, set_if_given, weights};
 
-/// Value of `--method`: rigid parts or distance fields, the two methods of the paper, or the best
-/// method.
+/// Value of `--method`: rigid parts, distance fields, or the method with the fewest defects. The
+/// first two are the methods of the paper "Design-Space Representation through Blended
+/// Transitions".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum MethodFlag {
     Arap,
@@ -69,7 +70,8 @@ pub(super) struct PlacingArgs {
 }
 
 impl PlacingArgs {
-    /// Returns whether `--method auto` is given: the method is chosen by rating the films.
+    /// Returns whether `--method auto` is given, with which the method is chosen by rating the
+    /// resulting films.
     pub(super) fn is_auto(&self) -> bool {
         self.method == Some(MethodFlag::Auto)
     }
@@ -94,11 +96,11 @@ impl PlacingArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Warp and content")]
 pub(super) struct CellArgs {
-    /// Warp: a row of the table of methods
+    /// Warp: the way in which points move from source to target
     #[arg(long, conflicts_with = "method", value_parser = one_of::<WarpKind>())]
     warp: Option<WarpKind>,
 
-    /// Content: a column of the table of methods
+    /// Content: the kind of shape or image that is drawn
     #[arg(long, conflicts_with = "method", value_parser = one_of::<ContentKind>())]
     content: Option<ContentKind>,
 
@@ -152,11 +154,12 @@ pub(super) struct ArapArgs {
     #[arg(long, overrides_with = "one_sided")]
     symmetric: bool,
 
-    /// Use the energy of the paper, in which only the source counts
+    /// Use the one-sided energy, in which only the source counts
     #[arg(long)]
     one_sided: bool,
 
-    /// Extra full turns of each part, in order
+    /// Extra full turns: one number for all parts, or one for each part, in the order of the parts'
+    /// first faces
     #[arg(
         long,
         value_name = "N,N,...",

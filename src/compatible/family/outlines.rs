@@ -13,7 +13,8 @@ impl CompatibleFamily {
     /// Triangulates the outlines of all designs at once. All designs must have the same parts and
     /// holes.
     ///
-    /// For each design, `matches` contains its match with the hub as the source; at index `hub` it
+    /// All designs are matched with the design of index `hub`. For each design, `matches` contains
+    /// the match with the hub as the source and this design as the target; at index `hub` it
     /// contains `None`. The vertices are ordered piece by piece (by matched connected part). Within
     /// a piece the points of its rings come first.
     ///

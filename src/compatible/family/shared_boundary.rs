@@ -1,10 +1,11 @@
 //! Boundary rings with corresponding points in all designs of a family.
 //!
-//! Every design is matched with one of them, the *hub*. Each match adds points of its own to the
-//! hub's outline. Between two neighbouring corners of the hub the outline is straight, so the
-//! points of all matches can be ordered along that edge. Where only some matches have a point, the
-//! other designs get a corresponding one, interpolated between their neighbouring points along the
-//! same edge. Points of different matches that lie at the same place on the hub become one point.
+//! One of the designs is the *hub*; every other design is matched with it. Each match adds points
+//! of its own to the hub's outline. The hub's outline is straight between two neighbouring corners,
+//! so the points that the matches add on such an edge can be ordered along it. Where only some
+//! matches have a point, the other designs get a corresponding one, interpolated between their
+//! neighbouring points along the same edge. Points of different matches that lie at the same place
+//! on the hub become one point.
 
 use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch};
 use crate::geometry::{Bounds, DVec2};
@@ -21,8 +22,9 @@ pub(super) type PieceRings = Vec<Vec<Vec<DVec2>>>;
 
 /// Returns the boundary rings of all pieces, with corresponding points in all designs.
 ///
-/// For each design, `matches` contains its match with the hub as the source; for the hub it
-/// contains `None`.
+/// All designs are matched with the design of index `hub`. For each design, `matches` contains the
+/// match with the hub as the source and this design as the target; at index `hub` it contains
+/// `None`.
 ///
 /// # Errors
 /// Index of a design whose parts or holes differ from the hub's, so that no corresponding points
@@ -134,7 +136,8 @@ impl<'a> RingLookup<'a> {
     }
 }
 
-/// Point that a match adds on an edge of the hub, between two corners that all matches share.
+/// Point that a match adds on an edge of the hub, the design with which all others are matched.
+/// The ends of the edge are two corners that all matches share.
 struct HubEdgePoint {
     /// Position along the hub's edge, from 0 at its first corner to 1 at its second.
     share: f64,
@@ -151,7 +154,8 @@ struct HubEdgePoint {
 /// hub it contains `None`.
 ///
 /// # Errors
-/// Index of a design whose match lists the shared corners in another order, or shares too few.
+/// Index of a design whose match lists the shared corners in another order. Index of the first
+/// matched design if all matches together share fewer than three points.
 fn merged_rings(
     lists: &[Option<&RingMatch>],
     merge_distance: f64,
@@ -191,7 +195,7 @@ fn merged_rings(
                 if key(list.source[cursor]) == key(next) {
                     break;
                 }
-                // The loop has gone all the way round without meeting the next corner.
+                // The search has gone all the way round the ring without meeting the next corner.
                 if cursor == first {
                     return Err(k);
                 }
@@ -235,7 +239,7 @@ fn shared_corners(lists: &[Option<&RingMatch>]) -> Result<Vec<DVec2>, usize> {
 /// The second corner is left to the next edge.
 ///
 /// For each design, `ends` contains the positions of both corners. Points of different designs are
-/// merged if they are at most the fraction `merge_share` of the edge apart.
+/// merged if their distance is at most `merge_share` times the edge's length.
 fn append_edge(
     rings: &mut [Vec<DVec2>],
     ends: &[[DVec2; 2]],
@@ -268,8 +272,9 @@ fn append_edge(
         let mut last = (0.0, begin);
         for (i, &share) in shares.iter().enumerate() {
             let place = own_places[i].unwrap_or_else(|| {
-                // Interpolates between the previous point and the next point on this edge that this
-                // design has itself.
+                // This design has no point here. Its position is interpolated between the previous
+                // point of the ring and the next point that the design's own match adds on this
+                // edge.
                 let after = (i + 1..shares.len()).find_map(|j| Some((shares[j], own_places[j]?)));
                 let (to, place) = after.unwrap_or((1.0, end));
                 let span = to - last.0;

@@ -7,8 +7,8 @@ use crate::geometry::{FillRule, Regions, orient2d};
 use crate::work::progress::Silent;
 use proptest::prelude::*;
 
-/// Flower with the given number of petals, sampled at `corners` points, with an optional round hole
-/// of radius `hole`.
+/// Flower with the given number of petals, sampled at `corners` points. Its radius varies by
+/// ±`depth` around 3. If `hole` is given, it is the radius of a round hole.
 fn flower(corners: u32, petals: f64, depth: f64, hole: Option<f64>) -> Regions {
     let ring = |size: f64, depth: f64| -> Vec<DVec2> {
         let point = |k: u32| {

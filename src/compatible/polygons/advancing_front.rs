@@ -1,6 +1,8 @@
 //! Advancing front that triangulates a piece (a matched connected part) from its boundary inwards,
-//! in two designs at once. Each step replaces a stretch of the front by two edges to a new point,
-//! which sees the whole stretch in each design, or cuts off a corner.
+//! in two designs at once.
+//!
+//! Each step either cuts off a corner of the front, or replaces a stretch of the front by two edges
+//! to a new point. In each design, the new point sees the whole stretch.
 
 use super::boundary_rings::BoundaryRings;
 use super::edge_grid::EdgeGrid;
@@ -21,12 +23,12 @@ const REACHES: [f64; 5] = [0.6, 0.3, 0.12, 0.04, 0.01];
 /// its sight lines (heuristic). This leaves room between parts of the front that approach each
 /// other.
 const CLEARANCE: f64 = 1.5;
-/// Maximum shape term of a corner triangle that is cut off (heuristic). The term is 1 for an
-/// equilateral triangle and 3 for a right triangle with legs 1 and 5.
+/// Maximum [`shape`](face_cost::shape) term of a corner triangle that is cut off (heuristic). The
+/// term is 1 for an equilateral triangle and 3 for a right triangle with legs 1 and 5.
 const MAX_CORNER_SHAPE: f64 = 3.0;
 
-/// State of the front: the rings that bound the region left to triangulate, and the faces behind
-/// them.
+/// State of the front: the rings that bound the region left to triangulate, and the faces that have
+/// already been built between these rings and the piece's boundary.
 pub(super) struct AdvancingFront {
     /// Positions of all vertices in both designs. The vertices of the piece's rings come first.
     pub(super) points: [Vec<DVec2>; 2],
@@ -168,8 +170,9 @@ impl<'a> FrontRing<'a> {
         if self.len() < 4 || self.has_frozen(&stretch) {
             return false;
         }
-        // In each design the corner triangle must be positive, well shaped and empty. At both ends,
-        // the new side must run into the region that is left to triangulate.
+        // In each design the corner triangle must be positive, well shaped and empty. At both of
+        // its ends, the side that replaces the corner must run into the region that is left to
+        // triangulate.
         let fits = (0..2).all(|d| {
             let corners = stretch.map(|v| self.place(d, v));
             face_cost::is_positive(corners)
@@ -237,9 +240,9 @@ impl<'a> FrontRing<'a> {
         debug_assert!(now < len);
     }
 
-    /// Returns the directed lines that a new vertex must lie to the left of, in the design `d`: the
-    /// edges of the stretch, and the edges before and after it where the stretch ends at a convex
-    /// corner.
+    /// Returns directed lines in the design `d`. The new vertex for the stretch of `k` edges from
+    /// position `at` must lie to the left of all of them. They are the edges of the stretch and, at
+    /// each end of the stretch that is a convex corner, the next edge of the ring beyond that end.
     fn sides(&self, d: usize, at: usize, k: usize) -> Vec<[DVec2; 2]> {
         let n = self.len();
         let place = |i: usize| self.place(d, self.vertex(i));
@@ -274,8 +277,8 @@ impl<'a> FrontRing<'a> {
         // across the whole piece.
         REACHES.into_iter().find_map(|reach| {
             let point = centre_of_kernel(middle, reach * extent, &sides)?;
-            // If the first and the last sight line are free, only a whole ring of the front can
-            // still lie inside the fan.
+            // The first and the last sight line bound the fan. If no front edge touches them, the
+            // only thing that can still lie inside the fan is a whole ring of the front.
             let sees = |p: DVec2| {
                 self.is_free(d, stretch[0], p, &[]) && self.is_free(d, stretch[last], p, &[])
             };
@@ -319,8 +322,9 @@ impl<'a> FrontRing<'a> {
     }
 }
 
-/// Clips a square by all lines and returns the mean of the corners of the remaining polygon; `None`
-/// if nothing remains. The square is centred at `middle` and has the half side `half`.
+/// Clips a square to the left side of all the lines `sides` and returns the mean of the corners of
+/// the remaining polygon; `None` if nothing remains. The square is centred at `middle` and has the
+/// half side `half`.
 fn centre_of_kernel(middle: DVec2, half: f64, sides: &[[DVec2; 2]]) -> Option<DVec2> {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let mut kernel: Vec<DVec2> = corners

@@ -68,8 +68,8 @@ pub(super) fn validate_rings(rings: &BoundaryRings, side: Side) -> Result<(), Pi
     if let Some(point) = rings.points.iter().position(|p| !p.is_finite()) {
         return Err(not_finite(rings, point, side));
     }
-    // The triangulation detects any fault quickly. The slow search for its cause runs only if there
-    // is one.
+    // The triangulation detects any fault of the rings quickly. The slow search for the cause runs
+    // only if the triangulation has failed.
     match constrained_delaunay(&loops) {
         Ok(_) => Ok(()),
         Err(TriangulationError::OutOfRange) => {

@@ -72,7 +72,8 @@ pub(super) fn bridged_base(
     let points = [0, 1].map(|d| disc.iter().map(|c| c.places[d]).collect::<Vec<_>>());
     let triangulations = chords::triangulations(&points[0], &points[1], progress)?;
     let mesh = overlay_triangulations(&points[0], &points[1], &triangulations, progress)?;
-    // Both banks of a bridge have the same vertex indices, so this joins them again.
+    // The corners on both banks of a bridge have the same vertex indices. Appending the disc's mesh
+    // by these indices therefore closes the cuts along the bridges.
     let vertices: Vec<u32> = disc.iter().map(|corner| corner.vertex).collect();
     whole.append(
         &vertices,
@@ -129,7 +130,8 @@ impl PieceLoops {
     /// each as the numbers of its two corners. They are sorted, shortest first; at most
     /// [`MAX_DIAGONALS`] are returned.
     fn diagonals(&self, graph: &MidpointGraph, design: usize) -> Vec<[usize; 2]> {
-        // Corners with smaller numbers belong to the first loop.
+        // Number of corners of the first loop. The corners numbered from 0 to `outer` − 1 belong to
+        // it.
         let outer = self.0[0].len() as u32;
         let corners: Vec<&BridgeCorner> = self.corners().collect();
         let length = |&[a, b]: &[usize; 2]| {
@@ -210,8 +212,8 @@ struct MidpointGraph {
     points: Vec<DVec2>,
 }
 
-/// For each face that the search has reached: the face before it on the path, and the side of that
-/// face that the path crosses. `None` for the faces at the start corner.
+/// For each face that the search has reached: the previous face on the path, and the side of the
+/// previous face through which the path enters this face. `None` for the faces at the start corner.
 type PredecessorMap = HashMap<usize, Option<(usize, usize)>>;
 
 impl MidpointGraph {

@@ -23,9 +23,9 @@ const TURNS: usize = 4;
 /// [`MAX_SEARCHED`] triangles, so their shape costs add up to less than one crossing. Shape
 /// therefore decides only between triangulations with equally many crossings).
 const SHAPE_COST: f64 = 1e-3;
-/// Cost, in crossings, of a triangle that is flat up to rounding, such as one at a point on a
-/// straight side (derived: more than the 158,000 crossings that are possible, because crossings
-/// inside such a triangle would have no room).
+/// Cost, in crossings, of a triangle that is flat up to rounding, such as one with all corners on a
+/// straight side (derived: more than the 158,000 crossings that are possible, so such triangles are
+/// used only if there is no other way. Crossings inside them would have no room).
 const SLIVER_COST: f64 = 1e6;
 /// A triangle counts as flat up to rounding if its [`flatness`] differs from 1 by less than this
 /// (tolerance: it corresponds to a height of about 6e-8 of the base, the error of points on a side
@@ -172,7 +172,7 @@ pub(super) fn interleave([a, b]: [u32; 2], [c, d]: [u32; 2]) -> bool {
 
 /// Returns the triangulation with the least total `cost` of its diagonals. Triangles that are flat
 /// up to rounding are avoided, and shape decides between equally cheap triangulations. If no
-/// triangulation exists, the result has fewer than n − 2 faces.
+/// triangulation exists, the result has fewer than n − 2 faces, where n is the number of points.
 fn cheapest_triangulation(
     points: &[DVec2],
     chords: &InteriorChords,

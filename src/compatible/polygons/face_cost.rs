@@ -3,9 +3,9 @@
 //!
 //! The cost is symmetric in the two designs. It is the sum of three terms: the fourth power of the
 //! conformal distortion of the map between the designs (Hormann, Greiner 2000), the squared shape
-//! term of the face in each design, and a small term for the change of area. The fourth power gives
-//! the worst faces more weight than a square would. The cost tends to infinity as a face becomes
-//! flat in either design.
+//! term of the face in each design (its squared edge lengths over its area), and a small term for
+//! the change of area. The fourth power gives the worst faces more weight than a square would. The
+//! cost tends to infinity as a face becomes flat in either design.
 
 use crate::geometry::{DVec2, orient2d, twice_signed_area};
 
@@ -68,8 +68,8 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Opti
     let mut gradients = [[DVec2::ZERO; 3]; 2];
     let mut shapes = [0.0; 2];
     for d in 0..2 {
-        // For an equilateral triangle of side 1 the squared edges add up to 3, and twice the area
-        // is √3 / 2.
+        // Makes the shape term 1 for an equilateral triangle: with sides of 1, its squared edges
+        // add up to 3, and twice its area is √3 / 2.
         let equilateral = inverse[d] / (2.0 * 3f64.sqrt());
         shapes[d] = squares(e[d]) * equilateral;
         // Derivative of the cost with respect to twice the area of the face in this design.
@@ -83,7 +83,8 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Opti
         let pulls = products[1 - d].map(|product| by_dirichlet * product + by_squares);
         for k in 0..3 {
             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-            // A moving corner changes its two sides, and the area in proportion to the third side.
+            // Moving corner k changes the two edges that meet at it. It changes the area in
+            // proportion to the edge opposite the corner.
             gradients[d][k] =
                 pulls[next] * e[d][next] - pulls[last] * e[d][last] + by_det * e[d][k].perp();
         }
@@ -128,9 +129,9 @@ fn products(e: FaceCorners) -> [f64; 3] {
     [-e[1].dot(e[2]), -e[2].dot(e[0]), -e[0].dot(e[1])]
 }
 
-/// The conformal energy |J|² / det J of a face, times the product of its doubled areas in both
-/// designs. `products` belongs to one design, the edges `e` to the other; the result is symmetric
-/// in the two.
+/// Conformal energy |J|² / det J of the map of a face between two designs, times twice its area in
+/// one design and twice its area in the other. `products` is the result of [`products`] in one
+/// design, `e` contains the edges in the other; exchanging the designs gives the same number.
 fn dirichlet(products: [f64; 3], e: FaceCorners) -> f64 {
     (0..3).map(|k| products[k] * e[k].length_squared()).sum()
 }

@@ -36,8 +36,8 @@ const PIN_SPACING: f64 = 0.35;
 const GRADING: f64 = 0.35;
 
 /// Number of triangular lattices that fill the frame. Each has half the spacing of the one before,
-/// so the last has 1/32 of the widest spacing (resource limit: that spacing suits pins that are
-/// 1/270 of the frame's longer side apart).
+/// so the last has 1/32 of the spacing of the first (resource limit: with this narrowest spacing,
+/// pins may be as close as 1/270 of the frame's longer side).
 const LATTICES: u32 = 6;
 
 /// Maximum number of points after filling, border and pins included (resource limit: each candidate
@@ -72,7 +72,7 @@ pub enum FramePinsError {
     Coincide {
         /// Indices of the pins, from 0.
         pins: [usize; 2],
-        /// Design in which they coincide.
+        /// Design in which the two pins coincide.
         side: Side,
     },
     /// No mesh without folds was found that meets all pins.
@@ -222,8 +222,8 @@ fn spacing(frame: &Bounds) -> f64 {
 
 /// Returns the points of triangular lattices that fill the frame between border and pins. They are
 /// spaced like the points of the border, but more closely around pins that are close to another pin
-/// or to the border in either design. For each design, `ends` holds the border points, `border` in
-/// number, and then the pins.
+/// or to the border in either design. For each design, `ends` contains the `border` border points,
+/// followed by the pins.
 fn fill_points(
     frame: &Bounds,
     border: usize,
@@ -254,9 +254,10 @@ fn fill_points(
         let is_last = lattice + 1 == LATTICES;
         for p in triangular_lattice(frame, step) {
             check_cancelled(progress)?;
-            // At each place, only the lattice whose spacing suits the place adds points. Where the
-            // required spacing is beyond the range of the lattices, the widest or the narrowest one
-            // adds them.
+            // Only one lattice adds points at each place: the one whose spacing suits the place. If
+            // the required spacing is larger than that of the widest lattice, the widest lattice
+            // adds them; if it is smaller than that of the narrowest lattice, the narrowest lattice
+            // does.
             let size = spacing_at(p);
             let fits =
                 size < 2.0 * step && (size >= step || is_last) || lattice == 0 && size >= step;
@@ -277,7 +278,8 @@ fn triangular_lattice(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> 
     let (columns, count) = ((size.x / step.x) as u32 + 1, (size.y / step.y) as u32);
     let low = frame.min;
     let place = move |i: u32, j: u32| {
-        // Every other row is shifted by half a step, so that the triangles are equilateral.
+        // Odd rows are shifted by half a step against even rows, so that the triangles are
+        // equilateral.
         let shift = if j.is_multiple_of(2) { 0.25 } else { 0.75 };
         low + step * DVec2::new(f64::from(i) + shift, f64::from(j) + 0.5)
     };
@@ -335,8 +337,8 @@ mod tests {
     fn pins_that_exchange_places_are_met_or_named() {
         let pins = [pin((0.0, 3.0), (3.0, 3.0)), pin((3.0, 3.0), (0.0, 3.0))];
         let mesh = CompatibleMesh::around_pins(&FRAME, &pins, &Silent);
-        // A half turn around a point between the pins satisfies both. If the search does not find
-        // it, the error names the pins.
+        // A half turn of the plane around the point midway between the two pins satisfies both
+        // pins. If the search finds no mesh for this, its error names the pins.
         match mesh {
             Ok(mesh) => assert!(mesh.target().contains(&pins[0].target)),
             Err(FramePinsError::Folds { pins }) => assert!(!pins.is_empty()),

@@ -69,8 +69,8 @@ pub(in crate::compatible) fn triangulate_many(
     Ok((faces, places))
 }
 
-/// Returns the triangulation with the lowest cost among the first few that fold in no design;
-/// `None` if there are none.
+/// Returns the triangulation with the lowest cost of those found that are free of folds in all
+/// designs; `None` if none is found. The search ends once it has found a few.
 fn best_triangulation(
     designs: &[BoundaryRings],
     first: usize,
@@ -90,8 +90,9 @@ fn best_triangulation(
             break;
         }
     }
-    // If no start works, the common mesh of the first design and one other design is tried as the
-    // start. Such a mesh is nearly always found, and it may transfer to the remaining designs.
+    // If no design's own triangulation transfers to all other designs, the common mesh of two
+    // designs, `first` and `hard`, is transferred to the remaining ones. Such a mesh of two designs
+    // is nearly always found.
     for hard in order.skip(1) {
         if !candidates.is_empty() {
             break;
@@ -146,8 +147,9 @@ fn refined_mesh(
     Ok(Some(mesh))
 }
 
-/// Reduces the distortion of a transferred mesh, if it has no folds. A transfer without folds to
-/// remove ends with the harmonic map, which distorts more than necessary.
+/// Reduces the distortion of a transferred mesh, if it has no folds. If the transfer had no folds
+/// to remove, inner vertices may lie where the harmonic map has put them, and this map distorts
+/// more than necessary.
 fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
     for _ in 0..REDUCTION_ROUNDS {
         let before = mesh.points[1].clone();
@@ -163,8 +165,8 @@ fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
 }
 
 /// Transfers the triangulation `base` of the design `from` to all other designs. Returns the result
-/// with the sum of its mean face costs over all designs; `None` if the result is folded in one of
-/// the designs.
+/// with the sum of its mean face costs over the other designs; `None` if the result is folded in
+/// one of the designs.
 ///
 /// If present, `hard_points` contains the index of another design and the positions of the vertices
 /// in that design, which then needs no transfer.
@@ -180,7 +182,7 @@ fn transfer_to_all(
         let hard_points = hard_points.as_ref().filter(|(hard, _)| *hard == design);
         let mut mesh = base.clone();
         match hard_points {
-            // The start itself keeps its vertices and has no distortion.
+            // The design `from` keeps the vertices of `base`. Its cost counts as 0.
             _ if design == from => return Ok(Some((0.0, own.clone()))),
             Some((_, places)) => mesh.points[1].clone_from(places),
             None => {

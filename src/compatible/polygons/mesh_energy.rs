@@ -48,7 +48,8 @@ pub(super) struct MeshEnergy<'a> {
     /// Indices of the inner vertices, ascending.
     pub(super) inner: Vec<u32>,
     sliders: &'a [SlidingVertex<'a>],
-    /// For each design, the factor from the coordinates of its outlines to those of the mesh.
+    /// For each design, the factor that converts coordinates of its outlines to coordinates of the
+    /// mesh.
     scales: [f64; 2],
     /// Weight of the area-change term.
     area: f64,
@@ -65,7 +66,7 @@ impl<'a> MeshEnergy<'a> {
         Self::new(mesh, &[], [1.0; 2], area)
     }
 
-    /// Creates the cost as a function of the inner vertices and of the sliding ones.
+    /// Creates the cost as a function of the inner vertices and of the sliding vertices `sliders`.
     pub(super) fn new(
         mesh: &'a PairMesh,
         sliders: &'a [SlidingVertex<'a>],
@@ -102,7 +103,8 @@ impl<'a> MeshEnergy<'a> {
         let energy = |x: &[f64], gradient: &mut [f64]| self.energy(x, gradient);
         minimise(&mut x, steps, 1e-5, precondition, energy, progress);
         self.apply(&x);
-        // The slides are the last unknowns.
+        // The unknowns of the inner vertices come first, four for each vertex. The rest are the
+        // slides.
         (self.current, x.split_off(4 * self.inner.len()))
     }
 

@@ -3,13 +3,13 @@
 //!
 //! On a convex n-gon the vertex indices alone determine which chords of the two triangulations
 //! cross, so crossings are found without coordinates. Every cell of the overlay (the common
-//! refinement) is a convex polygon with three to six corners. In each design, the crossings on a
-//! chord of that design's triangulation are placed on it at even spacing. This makes every cell
-//! strictly convex in that design.
+//! refinement) is a convex polygon with three to six corners. In each design, each chord of the
+//! design's own triangulation is straight, and the crossings on this chord are evenly spaced. This
+//! makes every cell strictly convex in that design.
 //!
-//! Guaranteed in exact arithmetic: all faces are positive in both designs. Rounding can break this
-//! where a polygon is about as thin as floating-point precision; the caller checks every face
-//! exactly. There may be O(n²) crossings.
+//! Guaranteed in exact arithmetic: all faces are positive in both designs. Rounding can fold or
+//! flatten faces where a polygon is about as thin as floating-point precision; the caller checks
+//! every face exactly. There may be O(n²) crossings.
 
 use super::chords::{diagonals, interleave};
 use super::pair_mesh::PairMesh;
@@ -77,8 +77,8 @@ fn source_first(design: usize, own: Chord, other: Chord) -> [Chord; 2] {
 }
 
 impl OverlayVertices {
-    /// Adds a vertex for each crossing of the chords of both designs, and places it in both
-    /// designs.
+    /// Adds a vertex for each crossing of a chord of the source's triangulation with a chord of the
+    /// target's, and places it in both designs.
     fn place_crossings(
         &mut self,
         chords: &[Vec<Chord>; 2],
@@ -121,7 +121,7 @@ impl OverlayVertices {
         let mut edges: Vec<(u32, u32)> = Vec::with_capacity(6);
         for (design, own, other) in [(0, s, t), (1, t, s)] {
             for side in sides(own) {
-                // A side that belongs to both triangles is found twice.
+                // If a side belongs to both triangles, the loop meets it twice. It is added once.
                 if let Some(edge) = self.clipped_side(design, side, other)
                     && !edges.contains(&edge)
                 {
@@ -132,7 +132,8 @@ impl OverlayVertices {
         if edges.len() < 3 {
             return None;
         }
-        // The parts of sides are directed. They are chained into a cycle by their ends.
+        // Each edge of the cell is a directed part of a side. The edge that starts where the
+        // previous one ends comes next, until the cycle is complete.
         let mut cycle = vec![edges[0].0];
         while cycle.len() < edges.len() {
             let last = cycle[cycle.len() - 1];
@@ -147,7 +148,8 @@ impl OverlayVertices {
     fn clipped_side(&self, design: usize, side: [u32; 2], other: [u32; 3]) -> Option<(u32, u32)> {
         let chord = undirected(side);
         let mut ends: Vec<(u32, u32)> = Vec::with_capacity(2);
-        // Stands for the chord's second end; larger than the rank of any crossing.
+        // Rank of the chord's second end, larger than the rank of any crossing on the chord. The
+        // first end has rank 0.
         let last = u32::MAX;
         for corner in side.iter().filter(|corner| other.contains(corner)) {
             ends.push((if *corner == chord[0] { 0 } else { last }, *corner));
@@ -176,7 +178,8 @@ impl OverlayVertices {
                 .map(|i| [cell[apex], cell[(apex + i) % k], cell[(apex + i + 1) % k]])
                 .collect()
         };
-        // All fans of a triangular cell are the same. Every fan of a convex cell is valid.
+        // All fans of a triangular cell are the same, so one apex is enough. A cell is convex, so
+        // the fan around any corner is valid.
         let apexes = if k == 3 { 1 } else { k };
         let worst_shape = |fan: &[[u32; 3]]| {
             let worst = |points: &Vec<DVec2>| {

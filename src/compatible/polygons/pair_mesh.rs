@@ -77,7 +77,7 @@ impl PairMesh {
         self.faces().filter(is_folded).count()
     }
 
-    /// Cost of a face; infinite if it is not positive in both designs.
+    /// Cost of a face; infinite if the face is not positive in both designs.
     pub(super) fn cost(&self, face: [u32; 3]) -> f64 {
         let [p, q] = self.corners(face);
         if face_cost::is_positive(p) && face_cost::is_positive(q) {
@@ -209,7 +209,8 @@ impl PairMesh {
             [b, middle, edge_faces.right],
             [middle, a, edge_faces.right],
         ];
-        // A split of invalid faces may create invalid faces. Valid faces must stay valid.
+        // If both old faces are valid, the new faces must be valid too. If an old face is invalid,
+        // new faces may be invalid.
         let was_valid = edge_faces
             .faces
             .iter()

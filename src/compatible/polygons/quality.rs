@@ -25,8 +25,8 @@ const EARLY_STEPS: usize = 8;
 /// Maximum product of descent steps and faces in a round (resource limit: it reduces the steps only
 /// of meshes with more than 20,000 faces).
 const MAX_WORK: usize = 1_200_000;
-/// Face cost above which a face is split while the limit on vertices allows it (heuristic: an
-/// undistorted equilateral face costs about 3).
+/// Face cost above which a face is split, until the mesh has reached its maximum number of inner
+/// vertices (heuristic: an undistorted equilateral face costs about 3).
 const COSTLY: f64 = 6.0;
 /// Maximum product of the number of faces and the round number while unneeded vertices are removed.
 /// Beyond it, the removal ends and the remaining vertices stay (resource limit).
@@ -102,8 +102,8 @@ fn split_costly(
         .map(|face| (face, mesh.cost(face)))
         .filter(|(_, cost)| *cost > COSTLY)
         .collect();
-    // The costliest faces come first. Of neighbouring faces only one is split, because a split
-    // changes the others too.
+    // The costliest faces are split first. If one of several faces that share a vertex has been
+    // split, the others are left as they are, because the split may have changed their costs.
     costly.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut touched = HashSet::new();
     let mut splits = 0;
@@ -219,7 +219,8 @@ fn split_long(
         return Ok(());
     };
     let n = mesh.fixed;
-    // Beyond 1.5 times the requested length, the halves are closer to it than the whole edge is.
+    // If an edge is longer than 1.5 times the requested length, the length of each half is closer
+    // to the requested length than that of the whole edge.
     let longest = [0, 1].map(|d| 1.5 * share * Bounds::diameter_of(&mesh.points[d][..n]));
     let max_count = options.max_inner_points(n);
     let mut count = mesh.steiner_vertices().len();
@@ -277,8 +278,8 @@ fn nudge(mesh: &mut PairMesh, v: u32) {
     }
 }
 
-/// Descent direction of a vertex in each design, as a vector as long as the distance to the nearest
-/// neighbour.
+/// For each design, a vector in the direction of steepest descent of a vertex. It is as long as the
+/// distance from the vertex to its nearest neighbour in that design.
 fn descent(mesh: &PairMesh, v: u32, faces: &[[u32; 3]]) -> [DVec2; 2] {
     let mut gradients = [DVec2::ZERO; 2];
     let mut reach = [f64::INFINITY; 2];

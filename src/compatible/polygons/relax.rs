@@ -40,7 +40,7 @@ fn springs(energy: &MeshEnergy, mesh: &PairMesh, progress: &dyn Progress) -> Opt
         });
         Springs::new(&energy.inner, springs, progress)
     };
-    // Each design has its own network. The terms that couple the two designs are left out, because
-    // they may be negative.
+    // Each design has its own network. Second derivatives that couple the two designs are left out,
+    // because with them the matrix might not be positive definite.
     Some([of(0)?, of(1)?])
 }

@@ -94,7 +94,7 @@ fn first_contact(edges: &LoopEdges, mut order: Vec<usize>, lenient: bool) -> Opt
     order.sort_by(|&i, &j| left(i).total_cmp(&left(j)));
     let mut active: Vec<usize> = Vec::new();
     for &i in &order {
-        // Edges that end to the left of this one cannot touch it.
+        // Edges that end to the left of edge `i` cannot touch it or any later edge.
         active.retain(|&j| right(j) >= left(i));
         if let Some(&j) = active.iter().find(|&&j| edges.touch(i, j, lenient)) {
             return Some([i.min(j), i.max(j)]);

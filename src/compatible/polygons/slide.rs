@@ -36,9 +36,10 @@ const STEPS: usize = 20;
 /// Number of rounds of descent and adaptation (heuristic).
 const ROUNDS: usize = 4;
 
-/// Returns, for each ring of the piece, new places `[source, target]` of its vertices on both
-/// outlines. At these places the map between the designs distorts less than in `mesh`. `None` if no
-/// vertex can slide, if rounding makes the mesh invalid, or on a cancel.
+/// Returns new positions of the vertices along the outlines (fractions of the whole outline): for
+/// each ring of the piece, a list of pairs `[source, target]`. With these positions the map between
+/// the designs distorts less than in `mesh`. `None` if no vertex can slide, if rounding makes the
+/// mesh invalid, or on a cancel.
 pub(crate) fn slide_outlines(
     piece: &PieceMatch,
     mesh: &CompatibleMesh,
@@ -49,7 +50,8 @@ pub(crate) fn slide_outlines(
         let rings = piece.rings.iter().map(|r| [&r.source, &r.target][side]);
         BoundaryRings::of(&rings.collect::<Vec<_>>())
     });
-    // The designs are processed in a fixed order, so that exchanging them gives the same result.
+    // The designs are processed in a fixed order, so that exchanging `source` and `target` only
+    // exchanges them in the result.
     let sides = if precedes(&rings[0], &rings[1]) {
         Side::BOTH
     } else {
@@ -93,8 +95,8 @@ fn sliders(piece: &PieceMatch, sides: [Side; 2]) -> Vec<SlidingVertex<'_>> {
     all
 }
 
-/// Returns the places `[source, target]` of all vertices after the slides: one list for each ring,
-/// empty for a ring without matched curves.
+/// Returns the positions `[source, target]` of all vertices along the outlines after the slides:
+/// one list for each ring, empty for a ring without matched curves.
 fn places(piece: &PieceMatch, sides: [Side; 2], sliders: &[SlidingVertex]) -> Vec<Vec<[f64; 2]>> {
     let mut ring_start = 0;
     let mut sliders = sliders.iter().peekable();

@@ -29,7 +29,8 @@ impl Springs {
         let mut matrix = SymmetricMatrix::zero(movable.len(), 16 * movable.len());
         let mut sum = 0.0;
         for (ends, stiffness) in springs {
-            // A spring opposite an obtuse corner has negative stiffness.
+            // Absolute values are added, because a spring opposite an obtuse corner has negative
+            // stiffness.
             sum += stiffness.abs();
             let ends = ends.map(unknown);
             for v in ends.into_iter().flatten() {

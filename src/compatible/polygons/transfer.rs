@@ -1,8 +1,10 @@
-//! Transfer: carries the refined triangulation of one polygon over to another polygon.
+//! Transfers the refined triangulation of one polygon to another polygon with corresponding
+//! vertices.
 //!
-//! The boundary vertices are placed on the other polygon, the inner vertices follow harmonically
-//! (Tutte 1963), and folds are removed ([`super::untangle`]). This gives good angles at low cost.
-//! It is not guaranteed that all folds can be removed; if some remain, the transfer has failed.
+//! The boundary vertices are placed on the other polygon, the inner vertices are placed by a
+//! similarity or, if that causes folds, by a harmonic map (Tutte 1963), and remaining folds are
+//! removed ([`super::untangle`]). This gives good angles at low cost. It is not guaranteed that all
+//! folds can be removed; if some remain, the transfer has failed.
 
 use super::boundary_rings::BoundaryRings;
 use super::options::PolygonOptions;
@@ -99,8 +101,8 @@ pub(super) fn transfer_onto(
 /// Places a mesh on the second design, in which its polygon vertices have the positions `to`. Folds
 /// may result. Returns false if the positions of the inner vertices cannot be computed.
 fn lay_onto(mesh: &mut PairMesh, to: &[DVec2], progress: &dyn Progress) -> Result<bool, Cancelled> {
-    // A similarity is tried first, because a harmonic map would distort even a polygon that has
-    // only moved.
+    // A similarity is tried before the harmonic map. The harmonic map would distort the faces even
+    // if the polygon has only been moved, turned or scaled.
     place_onto(mesh, to);
     if mesh.is_valid() {
         return Ok(true);

@@ -11,8 +11,8 @@ use crate::geometry::{DMat2, DVec2};
 use crate::numerics::lbfgs::minimise;
 use crate::work::progress::Progress;
 
-/// Minimum of ε, in units of the mean determinant (heuristic: a smaller ε allows thinner faces but
-/// needs shorter steps).
+/// Minimum of ε, in units of the area-weighted mean determinant (heuristic: a smaller ε allows
+/// thinner faces but needs shorter steps).
 const MIN_EPSILON: f64 = 1e-3;
 /// Maximum number of descent steps in a round, during which ε is fixed (heuristic: a new ε is
 /// better as soon as the worst face has moved).
@@ -23,7 +23,8 @@ struct UntangleFace {
     /// Vertex indices of the corners.
     corners: [usize; 3],
     /// Matrix by which the face's edge vectors in the target are multiplied to give its Jacobian.
-    /// It is scaled so that the mean determinant over all faces is 1.
+    /// It is scaled so that the mean determinant of the Jacobians, weighted by the faces' areas in
+    /// the source, is 1.
     from_edges: DMat2,
     /// Area of the face in the source, as a fraction of the source's total area.
     share: f64,
@@ -45,8 +46,8 @@ fn untangle_faces(mesh: &PairMesh) -> Vec<UntangleFace> {
             .map(move |f| face_cost::twice_area(mesh.corners(f)[d]))
     };
     let total: f64 = twice_areas(0).sum();
-    // Folded faces have negative area, so the sum is the area of the target polygon wherever its
-    // inner vertices lie.
+    // Folded faces have negative area, so the sum of the areas in the target is the area of the
+    // target polygon, wherever the inner vertices lie.
     let scale = (total / twice_areas(1).sum::<f64>()).sqrt();
     let prepared = |face: [u32; 3]| {
         let [p, _] = mesh.corners(face);
@@ -128,8 +129,8 @@ fn energy(
         let j = face.jacobian(at);
         let (value, by_jacobian) = density(j, epsilon);
         total += face.share * value;
-        // J = edges · from_edges. The first corner moves both edge vectors in the opposite
-        // direction.
+        // With the matrix of edge vectors b − a and c − a, J = edges · from_edges. Moving the
+        // corner a changes both edge vectors by the opposite of its displacement.
         let by_edges = by_jacobian * face.from_edges.transpose() * face.share;
         let corners = [
             -(by_edges.x_axis + by_edges.y_axis),

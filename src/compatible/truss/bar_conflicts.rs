@@ -69,8 +69,8 @@ fn bars_meet(first: [u32; 2], second: [u32; 2], nodes: &[DVec2]) -> bool {
     segments_touch(first.map(at), second.map(at))
 }
 
-/// Removes bars until no conflict is left: always the bar with the most remaining conflicts (ties:
-/// the one with the largest index). Returns for each bar whether it remains.
+/// Removes bars until no conflict is left: each step removes the bar with the most remaining
+/// conflicts (ties: the one with the largest index). Returns for each bar whether it remains.
 pub(super) fn remove_greedily(
     bars: usize,
     conflicts: &[BarConflict],

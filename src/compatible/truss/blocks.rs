@@ -111,7 +111,8 @@ fn successors(edges: &[[u32; 2]], nodes: &[DVec2]) -> HashMap<[u32; 2], [u32; 2]
         let centre = nodes[node as usize];
         ends.sort_by(|&p, &q| compare_angles(centre, nodes[p as usize], nodes[q as usize]));
         for (i, &end) in ends.iter().enumerate() {
-            // The ends are sorted counter-clockwise, so the previous one is the first clockwise.
+            // The ends are sorted counter-clockwise, so the previous end in the list is the next
+            // one clockwise.
             let before = ends[(i + ends.len() - 1) % ends.len()];
             successor.insert([end, node], [node, before]);
         }

@@ -45,7 +45,7 @@ const SQUARE_BARS: [[u32; 2]; 4] = [[0, 1], [1, 2], [2, 3], [3, 0]];
 
 #[test]
 fn triangles_bridges_and_dangling_bars_are_distinguished() {
-    // Two triangles joined by a bridge, one with a dangling bar inside.
+    // Two triangles joined by a bridge. A dangling bar lies inside the first triangle.
     let nodes = [
         (0.0, 0.0),
         (4.0, 0.0),
@@ -211,7 +211,8 @@ fn differences_and_reversed_panels_are_named_in_the_error() {
         panels(&square, &truss(&mirror, &SQUARE_BARS)),
         Err(TrussError::Mirrored)
     );
-    // Node 4 moves to the other side of the triangle's opposite edge.
+    // Nodes 2, 3 and 4 form a triangle on the upper side of the square. In the target, node 4 lies
+    // below this side, so the triangle is turned over.
     let house = |y| {
         let nodes = [SQUARE.as_slice(), &[(0.5, y)]].concat();
         truss(

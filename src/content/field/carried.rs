@@ -34,7 +34,8 @@ impl FieldPair {
     pub fn contour_carried(&self, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
         let (grid, blend) = (self.grid(), &self.blend);
         let level = blend.level();
-        // Samples are stored relative to L(τ), so that single precision is finest near the contour.
+        // Samples are stored relative to `level`, the blend's value on the contour, because single
+        // precision is finest near 0.
         let outside = (blend.curve(UNCOVERED_DISTANCE + blend.threshold.min(0.0)) - level) as f32;
         // The extended grid has the same margin on all sides, so its sample coordinates differ from
         // those of the fields' grid by a shift only.

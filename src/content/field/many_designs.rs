@@ -60,10 +60,11 @@ impl FieldSet {
         &self.fields
     }
 
-    /// Returns the blend for these weights as a distance field: at each sample, the distance at
-    /// which L has the value F. At the samples, a blend of two such fields therefore equals the
-    /// blend for the weights blended in the same way. With all weight on one design the result is
-    /// that design's field, unchanged.
+    /// Returns the blend F = Σ wⱼ L(fⱼ) for the weights wⱼ as a distance field: each sample is the
+    /// distance x with L(x) = F. At the samples, a blend of two fields that this function has
+    /// returned therefore equals a single blend of the original fields: its weights are the two
+    /// lists of weights, blended in the same way. With all weight on one design the result is that
+    /// design's field, unchanged.
     ///
     /// # Panics
     /// Panics if the number of weights differs from the number of fields.
@@ -175,8 +176,9 @@ mod tests {
             abc.contour(&[0.25, 0.625, 0.125]),
         ];
         let [near, far] = [near.concat(), far.concat()];
-        // The pair of blended fields is interpolated before L is applied, the original fields
-        // before they are blended. The two contours therefore differ slightly.
+        // `near` comes from two blended fields, which are interpolated between samples after the
+        // first blend. `far` comes from the original fields, which are interpolated before any
+        // blend. The two contours therefore differ slightly.
         let gap = |p: &DVec2| far.iter().map(|q| p.distance(*q)).fold(9.0, f64::min);
         assert!(near.iter().map(gap).all(|gap| gap < 0.2) && near.len() > 10);
     }

@@ -214,8 +214,9 @@ fn points_are_inside_exactly_where_the_contour_encloses_them() {
         for i in 0..60 {
             for j in 0..60 {
                 let p = DVec2::new(f64::from(i), f64::from(j)) / 3.0 - DVec2::splat(9.9);
-                // Where F is within 0.02 of L(τ), the straight chord of a contour cell may decide
-                // differently.
+                // A contour is straight within a cell of the grid. Where the blend is within 0.02
+                // of the contour's level, a point may therefore lie on the other side of the
+                // contour.
                 if (pair.value(p, t) - pair.blend().level()).abs() > 0.02 {
                     assert_eq!(pair.is_inside(p, t), drawn.contains(p), "{p} at {t}");
                     inside += i32::from(drawn.contains(p));

@@ -134,8 +134,8 @@ pub(super) fn outline_centre(ring: &Ring) -> DVec2 {
 /// `outer`. Returns `None` if `p` lies on the boundary.
 fn map_by_mean_values(outer: &RingVertices, p: DVec2) -> Option<DVec2> {
     let n = outer.from.len();
-    // tan(α/2) = sin α / (1 + cos α) for the angle α between a and b, with numerator and
-    // denominator times both lengths.
+    // tan(α/2) = sin α / (1 + cos α), where α is the angle from a to b. Numerator and denominator
+    // are both multiplied by |a| |b|.
     let half_tangent = |k: usize| {
         let (a, b) = (outer.from[k] - p, outer.from[(k + 1) % n] - p);
         let (cross, dot) = (a.perp_dot(b), a.dot(b));

@@ -29,8 +29,8 @@ pub struct PieceMatch {
     /// Rings of the piece: the outer ring first, counter-clockwise, then the holes, clockwise.
     pub rings: Vec<RingMatch>,
     /// Holes that exist in only one design and are excluded from the piece
-    /// ([`HoleRule::Transient`]). Each is clockwise in that design, and a tiny ring that represents
-    /// a point in the other.
+    /// ([`HoleRule::Transient`]). In that design, each is a clockwise ring. In the other design, it
+    /// is a tiny ring that represents a point.
     pub lone: Vec<RingMatch>,
     /// Index of the source's part that contains the piece; `None` if the piece exists only in the
     /// target.
@@ -55,7 +55,8 @@ pub struct PieceMatch {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum MatchNote {
-    /// A hole closes, or opens, and is not cut open, because no straight cut reaches it.
+    /// A hole closes to a point, or opens from one. It should have been cut open, but no straight
+    /// cut reaches it.
     #[error("hole {} of part {} of the {side} is not cut open: no straight cut to it stays inside the part; draw a cut", hole + 1, part + 1)]
     Uncut {
         /// Design that contains the hole.
@@ -121,8 +122,8 @@ pub enum RegionMatchError {
     /// Pins on one boundary contradict each other; their indices are those among all pins.
     #[error("{0}")]
     Pins(PinError),
-    /// A coordinate of a pin, link, cut or unmatched part is not finite. The index counts these
-    /// four kinds in this order.
+    /// A coordinate of a pin, link, cut or unmatched part is not finite. The index counts all pins,
+    /// then all links, cuts and unmatched parts.
     #[error("pin, link or cut {} has a coordinate that is not finite; place it again", .0 + 1)]
     NotFinite(usize),
     /// The pin with this index ties a hole to an outer boundary, but the rule is that unmatched

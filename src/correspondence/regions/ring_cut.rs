@@ -12,19 +12,20 @@ use crate::geometry::Ring;
 use crate::work::progress::{Progress, check_cancelled};
 use rayon::prelude::*;
 
-/// Number of places on the boundary at which the first round tries a cut (resource limit: each
-/// needs a match of its own).
+/// Number of places on the boundary at which the first round of the search tries a cut (resource
+/// limit: each place needs a match of its own).
 const FIRST_PLACES: u32 = 28;
 /// Number of samples of each trial match (resource limit: keeps all trials together about as fast
 /// as one full match).
 const SAMPLES: u32 = 56;
 
-/// Number of places at which the second round tries a cut, between the two neighbours of the best
-/// place (resource limit).
+/// Number of places at which the second round of the search tries a cut. They lie between the two
+/// neighbours of the best place of the first round (resource limit).
 const SECOND_PLACES: u32 = 6;
 
-/// Weight, in the cost of a cut, of the slit's length as a fraction of the boundary's length. It
-/// decides between cuts that match equally well (heuristic).
+/// Weight of the slit's length in the cost of a cut. The slit's length is taken as a fraction of
+/// the length of the boundary loop after the cut. The weight decides between cuts that match
+/// equally well (heuristic).
 const LENGTH_WEIGHT: f64 = 0.25;
 
 /// A cut, the boundary loop after it, and its cost.

@@ -110,7 +110,8 @@ impl SlitBoundary {
             && CLEARANCE_CHECKS.iter().all(is_clear)
     }
 
-    /// Returns this loop extended along the slit, around the hole and back along the slit.
+    /// Returns this loop extended along the slit, around the hole and back along the slit. Returns
+    /// `None` if the resulting points form no [`Ring`].
     pub(super) fn cut_open(&self, hole: &Ring, slit: &Slit) -> Option<Self> {
         let [a, b] = slit.ends;
         let mut points = ring_from(&self.ring, slit.outer_edge, a);
@@ -135,7 +136,8 @@ fn ring_from(ring: &Ring, edge: usize, from: DVec2) -> Vec<DVec2> {
     loop_points
 }
 
-/// Returns the index of the allowed edge that is nearest to `p`, and the nearest point on it.
+/// Finds the edge nearest to `p` among the edges for which `allowed` is true. Returns its index and
+/// its point nearest to `p`; `None` if there is no such edge.
 fn nearest_edge(
     ring: &Ring,
     p: DVec2,

@@ -10,8 +10,9 @@ use super::super::curve::BoundaryCurve;
 use super::super::shared_polygons::SharedPolygons;
 use crate::geometry::{DVec2, Side, SourceTarget};
 
-/// Maximum distance at which vertices of the two passages are merged, in units of the even spacing
-/// along the slit. Below ½, so that no vertex is close to two of an even row (heuristic).
+/// Maximum distance at which a vertex of one passage is merged with a vertex of the other. The unit
+/// is the spacing that the vertices of the fuller passage would have if they were evenly spaced.
+/// Below ½, so that no vertex is within this distance of two evenly spaced ones (heuristic).
 const MERGE_DISTANCE: f64 = 0.35;
 
 /// A vertex on one passage along a slit.

@@ -115,7 +115,7 @@ fn centre(region: &Region) -> DVec2 {
 struct SplitGoal<'a> {
     /// Parts intended for one side of the cut.
     first: &'a [&'a Region],
-    /// Parts intended for the other side.
+    /// Parts intended for the other side of the cut.
     others: &'a [&'a Region],
     /// Fraction of the region's area that the side for `first` should get.
     share: f64,
@@ -156,7 +156,7 @@ fn cut_in_two(
         let [a, b] = &pieces.1;
         let (forward, swapped) = (rank(goal, a, b), rank(goal, b, a));
         let length_cost = LENGTH_WEIGHT * pieces.0 / region.area().sqrt();
-        // Either side may serve as the first; take the assignment that ranks better.
+        // Either side may be the one for `goal.first`; take the assignment that ranks better.
         if forward <= swapped {
             ranked.push((forward + length_cost, pieces.1));
         } else {

@@ -34,7 +34,8 @@ pub(super) enum ColourSource {
 /// Colours of layers by name; `None` for index 7 or an invalid index.
 pub(super) type LayerColours = HashMap<Vec<u8>, Option<Rgb>>;
 
-/// Name of the layer that stands for the layer of the block reference, for entities inside a block.
+/// Name of DXF's special layer: an entity of a block that lies on this layer gets the layer of the
+/// block reference.
 const OF_BLOCK: &[u8] = b"0";
 
 impl ColourSource {
@@ -51,8 +52,9 @@ impl ColourSource {
 }
 
 impl EntityStyle {
-    /// Resolves the layer and colour of an entity in a block whose reference has the style `outer`;
-    /// `None` for an entity outside of blocks.
+    /// Returns this style with the layer and the colour that an entity of a block inherits from the
+    /// block reference. `outer` is the style of that reference, or `None` for an entity outside of
+    /// blocks, which inherits nothing.
     pub fn inherited_from(&self, outer: Option<&Self>) -> Self {
         let Some(outer) = outer else {
             return self.clone();
@@ -80,7 +82,7 @@ impl EntityStyle {
 }
 
 /// Converts a colour index; a negative index (layer off) has the same colour as its absolute value.
-/// Returns `None` for index 7 and for indices that are no colour.
+/// Returns `None` for index 7 and for numbers that denote no colour: 0 and those above 255.
 pub(super) fn from_index(number: i64) -> Option<Rgb> {
     let number = u8::try_from(number.unsigned_abs()).ok()?;
     Some(Rgb(match number {
@@ -109,15 +111,15 @@ pub(super) fn from_rgb_bits(bits: i64) -> Rgb {
     Rgb([red, green, blue])
 }
 
-/// Converts a colour index from 10 to 249.
+/// Converts a colour index in the range 10 to 249 to red, green and blue.
 fn hue_colour(number: u8) -> [u8; 3] {
     /// Maximum channel value, 0 to 255, of each of the five brightnesses (DXF Reference).
     const BRIGHTNESS: [f64; 5] = [255.0, 165.0, 127.0, 76.0, 38.0];
     let hue = f64::from(number / 10 - 1) * 15.0 / 60.0;
     let brightness = BRIGHTNESS[usize::from(number % 10 / 2)];
     let min_share = if number.is_multiple_of(2) { 0.0 } else { 0.5 };
-    // HSV to RGB: each channel is at its maximum for a third of the hue circle and rises and
-    // falls within a sixth.
+    // HSV to RGB on a hue circle of length 6: a channel has its maximum up to the distance 1 from
+    // `peak` and its minimum from the distance 2 on; in between it changes linearly.
     let channel = |peak: f64| {
         let distance = (hue - peak).rem_euclid(6.0);
         let share = (2.0 - distance.min(6.0 - distance)).clamp(0.0, 1.0);

@@ -14,8 +14,8 @@ use std::f64::consts::{PI, TAU};
 /// Maximum number of chords of an arc (resource limit).
 const MAX_ARC_PIECES: f64 = 4096.0;
 
-/// Maximum recursion depth when half a knot span is bisected, which gives up to 2048 chords per
-/// span (resource limit).
+/// Maximum recursion depth of the bisection of each half of a knot span. A span gets at most 2048
+/// chords, 1024 per half (resource limit).
 const MAX_BISECTIONS: u32 = 10;
 
 /// Minimum absolute value of an arc's bulge; arcs with a smaller one count as straight (tolerance:
@@ -218,7 +218,8 @@ impl NurbsCurve {
                     self.knots[first + j],
                     self.knots[first + j + 1 + self.degree - level],
                 );
-                // The divisor is positive: the span has a length and lies between these knots.
+                // The divisor is positive: the span has a positive length and lies between the
+                // knots `low` and `high`.
                 let share = (parameter - low) / (high - low);
                 points[j] = points[j - 1].lerp(points[j], share);
             }

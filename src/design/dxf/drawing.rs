@@ -53,7 +53,7 @@ struct DxfReader {
     layers: LayerColours,
     /// Blocks by name.
     blocks: HashMap<Vec<u8>, DxfBlock>,
-    /// Name and content of the block being read.
+    /// Name and content of the block that is being read; `None` outside of blocks.
     open: Option<(Vec<u8>, DxfBlock)>,
     /// Entities outside of blocks.
     entities: Vec<DxfEntity>,
@@ -292,10 +292,10 @@ impl BlockExpansion<'_> {
         Ok(())
     }
 
-    /// Adds `steps` and one more to the number of steps; returns an error if the sum exceeds the
+    /// Adds `steps` + 1 to the number of steps so far; returns an error if the sum exceeds the
     /// limit.
     fn count(&mut self, steps: usize) -> Result<(), DxfError> {
-        // The additional step lets paths without curves reach the limit, too.
+        // Because of the additional step, the number of paths without curves is limited, too.
         self.steps += 1 + steps;
         check_count(self.steps, 2 * MAX_OBJECTS)
     }

@@ -26,7 +26,7 @@ pub(super) enum EntityShape {
         curves: Vec<DxfCurve>,
         is_closed: bool,
     },
-    /// Reference to a block, which places copies of it.
+    /// Reference that places one or more copies of a block.
     Insert {
         /// Name of the block.
         block: Vec<u8>,

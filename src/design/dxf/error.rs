@@ -52,7 +52,8 @@ pub enum DxfError {
     /// The curves need too many points.
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
-    /// The drawing has no supported curves; holds the counts of the other entities.
+    /// The drawing has no supported curves, or all of them lie in one point. Holds the number of
+    /// ignored entities of each type.
     #[error("the drawing has no lines, arcs or curves{0}; draw or explode the outlines")]
     Nothing(OtherKinds),
     /// The curves form no closed ring.

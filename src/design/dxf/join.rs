@@ -115,7 +115,8 @@ impl EndpointGraph {
         loose
     }
 
-    /// Returns a curve at a node that has been neither removed nor traversed.
+    /// Returns a curve that ends at the node `place` and has been neither removed nor traversed;
+    /// `None` if there is none.
     fn unused_at(&mut self, place: usize) -> Option<usize> {
         let here = &mut self.curves_at[place];
         while here.last().is_some_and(|&curve| self.is_used[curve]) {

@@ -55,7 +55,7 @@ impl<'a> GroupPair<'a> {
     }
 }
 
-/// Reader of the pairs of a file.
+/// Reader of the pairs (group code and value) of a DXF file, one after the other.
 pub(super) struct PairReader<'a> {
     bytes: &'a [u8],
     /// Byte offset of the next unread byte.
@@ -70,9 +70,9 @@ pub(super) struct PairReader<'a> {
 enum DxfEncoding {
     /// Text: two lines per pair, the group code and the value.
     Text,
-    /// Binary with group codes of one byte, or of three bytes from 255 on (up to release 12).
+    /// Binary, up to release 12: a group code below 255 takes one byte, any other three bytes.
     Narrow,
-    /// Binary with group codes of two bytes.
+    /// Binary, after release 12: a group code takes two bytes.
     Wide,
 }
 

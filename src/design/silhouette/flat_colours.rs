@@ -86,8 +86,8 @@ impl PixelColour {
         }
     }
 
-    /// Returns the largest difference in a channel, 0 to 255; 255 if only one of the two pixels is
-    /// opaque.
+    /// Returns the largest difference between the two colours in any channel, 0 to 255; 255 if only
+    /// one of the two pixels is opaque.
     fn distance(self, other: Self) -> u8 {
         if self.1 != other.1 {
             return u8::MAX;
@@ -172,7 +172,8 @@ impl FlatColours {
             let neighbours = neighbourhood(i, width, count, NEIGHBOURHOOD);
             let candidates = match neighbours.fold(0, |bits, j| bits | own_bits[j]) {
                 0 if is_near_border(i, width, count) => 1 << ground,
-                // A line that is too thin to contain a flat pixel may have any colour.
+                // A pixel without a flat pixel nearby, as in a very thin line, may have any of the
+                // flat colours.
                 0 => u32::MAX,
                 some => some,
             };
@@ -258,7 +259,7 @@ fn background(
         return Some(ground);
     }
     let mut counts = vec![0; flat.len()];
-    // The zone is wider than the thin frame that some converters add around a picture.
+    // The border zone is wider than the thin frame that some converters add around a picture.
     let is_border = |&i: &usize| is_flat[i] && is_near_border(i, width, inks.len());
     for i in (0..inks.len()).filter(is_border) {
         counts[usize::from(ColourMatch::of(inks[i], u32::MAX, flat).closest)] += 1;

@@ -33,9 +33,9 @@ const MAX_CORNER_SHIFT: f64 = 2.0;
 /// (tolerance: at smaller angles the intersection is dominated by noise).
 const MIN_CORNER_SINE: f64 = 0.5;
 
-/// Rounding a corner replaces an equally long part of each of its two chords. If this part is
-/// shorter than this fraction of half the shorter chord, the corner counts as intentional and stays
-/// sharp (heuristic).
+/// Minimum length that the rounding of a corner takes from each of its two chords, as a fraction of
+/// half the shorter chord. If the rounding would be shorter, the corner counts as intentional and
+/// stays sharp (heuristic).
 const MIN_ROUNDING: f64 = 0.5;
 
 /// Inserts points so that neighbours are about one pixel apart. This restores the points that
@@ -65,8 +65,8 @@ pub(super) fn fit_outline(boundary: &[TracedPoint], flatness: f64) -> Vec<DVec2>
     round_corners(&corners(boundary), flatness)
 }
 
-/// Returns the corners of the polygon with the fewest chords, moved to the intersections of
-/// the lines fitted along the chords.
+/// Returns the corners of the polygon that fits the boundary with the fewest chords. A line is
+/// fitted along each chord, and each corner is moved to the intersection of its two lines.
 fn corners(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
     let count = boundary.len();
     let first = sharpest_point(boundary);
@@ -96,8 +96,9 @@ fn corners(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
     (0..vertices.len()).map(corner).collect()
 }
 
-/// Returns the indices of the points that are vertices of the polygon with the fewest chords. Uses
-/// dynamic programming along the closed boundary, from the first point back to itself.
+/// Returns the indices of the boundary points that are vertices of the polygon with the fewest
+/// chords; each chord must pass within the slack of the points that it spans. Uses dynamic
+/// programming along the closed boundary, from the first point back to itself.
 fn fewest_chords(
     count: usize,
     traced_at: &dyn Fn(usize) -> TracedPoint,
@@ -198,7 +199,9 @@ impl DirectionWedge {
                 if left.perp_dot(sides[1]) > 0.0 {
                     sides[1] = left;
                 }
-                // The range is narrower than half a turn, so the signs are meaningful.
+                // The range was narrower than half a turn, so the cross product of its sides is
+                // negative only if they have passed each other, that is, if the range is empty. The
+                // dot product is not positive if the point lies behind the apex.
                 return sides[0].perp_dot(sides[1]) >= 0.0 && sides[0].dot(to) > 0.0;
             }
         }
@@ -282,7 +285,9 @@ impl PrefixSums {
     }
 }
 
-/// Rounds every corner that cannot be distinguished from a curve within its slack.
+/// Replaces each corner by a parabola that stays within the corner's slack. A corner stays sharp if
+/// its parabola would be shorter than [`MIN_ROUNDING`] demands or would differ from the corner by
+/// at most `flatness`. Outlines with fewer than four corners are returned unchanged.
 fn round_corners(corners: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
     let count = corners.len();
     if count < 4 {
@@ -294,8 +299,8 @@ fn round_corners(corners: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
         let [before, after] = [k + count - 1, k + 1].map(|k| corners[k % count].point - p);
         let [to_before, to_after] = [before.normalize_or_zero(), after.normalize_or_zero()];
         let half = 0.5 * before.length().min(after.length());
-        // The corner is replaced by a parabola that starts and ends at the distance `reach` from
-        // it. The distance between the corner and the parabola is 0.25 · cut · reach.
+        // A parabola replaces the corner. It starts and ends at the distance `reach` from the
+        // corner and passes the corner at the distance 0.25 · `cut` · `reach`.
         let cut = (to_before + to_after).length();
         let reach = if cut * half > 4.0 * corner.slack {
             4.0 * corner.slack / cut

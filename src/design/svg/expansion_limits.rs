@@ -72,8 +72,8 @@ fn longest_font_list(document: &Document) -> u64 {
 struct StyleReferences<'d> {
     /// Upper bound of the number of rules in all style sheets.
     rules: usize,
-    /// For the last name of a selector (a class, an element or an id): the ids that its rules refer
-    /// to.
+    /// Maps the last name of a selector (a class, an element or an id) to the ids that are referred
+    /// to by the rules with this selector.
     references: HashMap<&'d str, Vec<&'d str>>,
 }
 
@@ -154,7 +154,7 @@ fn urls(text: &str) -> impl Iterator<Item = &str> {
 struct ExpandedSize {
     /// Number of elements, including copies and the element itself.
     elements: u64,
-    /// Nesting depth, the element itself included.
+    /// Number of nesting levels, including copies and the level of the element itself.
     levels: u32,
     /// Estimated time for laying out the text of the element, in microseconds.
     text: u64,

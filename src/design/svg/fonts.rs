@@ -8,8 +8,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use usvg::fontdb::{Database, Family, ID, Query, Source};
 use usvg::{FontFamily, FontResolver};
 
-/// Maximum number of searches for another font when the chosen font lacks a character (resource
-/// limit: each search opens every font file).
+/// Maximum number of searches in one drawing for another font that has a character which the chosen
+/// font lacks (resource limit: each search opens every font file).
 const MAX_SEARCHES: usize = 64;
 
 /// Font family for text that names none.
@@ -28,7 +28,8 @@ pub(super) struct FontLookup {
 pub(super) struct MissingFonts {
     /// Names of missing font families.
     pub fonts: BTreeSet<String>,
-    /// Characters for which no font was found, or for which the search was skipped.
+    /// Characters for which no font was found, or for which no search was made because the drawing
+    /// had reached the maximum number of searches.
     pub characters: BTreeSet<char>,
 }
 
@@ -88,7 +89,8 @@ fn is_installed(fonts: &Database, family: Family) -> bool {
     fonts.query(&query).is_some()
 }
 
-/// Returns the bundled font, which is the only one with its source in memory.
+/// Returns the bundled font. It is recognised as the only font that was loaded from memory and not
+/// from a file.
 fn bundled_font(fonts: &Database) -> Option<ID> {
     let mut faces = fonts.faces();
     faces

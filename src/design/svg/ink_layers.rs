@@ -82,8 +82,8 @@ pub(super) fn clip_rings(rings: WindingRings, clip: Option<&WindingRings>) -> Wi
 /// squares at once takes half a minute and gigabytes).
 const UNION_BATCH: usize = 8;
 
-/// Returns the union of shapes. Works in small batches, so that edges inside a batch are removed
-/// before they meet the others.
+/// Returns the union of shapes. Unites small batches separately, which removes their inner edges,
+/// and then unites the results.
 pub(super) fn union(mut shapes: Vec<WindingRings>) -> WindingRings {
     while shapes.len() > 1 {
         let unite = |batch: &[WindingRings]| match batch {

@@ -6,8 +6,8 @@ use super::shape::SvgShape;
 use crate::colour::Paint;
 use crate::geometry::{Bounds, DVec2};
 
-/// Maximum number of shapes in a group for which covered parts are subtracted (resource limit: the
-/// shapes are compared in pairs).
+/// Maximum number of shapes in a group. In a larger group, covered parts are not subtracted
+/// (resource limit: the shapes are compared in pairs).
 const MAX_SHAPES: usize = 4096;
 
 /// Maximum total number of points in the Boolean operations on a group (resource limit: about
@@ -28,7 +28,7 @@ pub(super) fn apply_group_opacity(
         .into_iter()
         .flat_map(SvgShape::split_stroke)
         .collect();
-    // Shapes of equal paint are united, because their overlaps and seams would become visible.
+    // Shapes of equal paint are united; otherwise their overlaps and seams would become visible.
     let mut shapes = merge_shapes(shapes, page);
     let boxes: Vec<Option<Bounds>> = shapes.iter().map(SvgShape::bounds).collect();
     let may_overlap =

@@ -52,7 +52,7 @@ pub(super) fn merge_shapes(shapes: Vec<SvgShape>, page: DVec2) -> Vec<SvgShape> 
     stack.layers.into_iter().map(unite).collect()
 }
 
-/// Attributes that all shapes of one layer share; equal keys may share a layer.
+/// Attributes that all shapes of one layer share. Shapes with equal keys may be put into one layer.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct LayerKey {
     is_text: bool,

@@ -25,7 +25,7 @@ pub(super) struct SvgReadOptions<'o> {
 pub(super) struct PaintedDrawing {
     /// Shapes, lowest first.
     pub shapes: Vec<SvgShape>,
-    /// Repairs within single shapes, for each fill rule that resolved them.
+    /// For each fill rule: the repairs within single shapes that are filled by this rule.
     pub repairs: [(FillRule, Repairs); 2],
     /// Number of paths with a visible stroke but no fill.
     pub bare_strokes: usize,
@@ -260,7 +260,8 @@ impl SvgPainter<'_> {
         let rings = self.rings(path.data(), path.abs_transform())?;
         let rule = match path.fill().map(usvg::Fill::rule) {
             Some(usvg::FillRule::NonZero) => FillRule::NonZero,
-            // Without a fill, the even-odd rule preserves all outlines.
+            // A path without a fill has no rule; the even-odd rule keeps all its rings, even nested
+            // ones.
             Some(usvg::FillRule::EvenOdd) | None => FillRule::EvenOdd,
         };
         let crossings = Repairs::count_contacts(&rings).crossings;

@@ -93,8 +93,8 @@ fn check_entities(text: &str) -> Result<(), SvgError> {
     }
     let (mut expanded, mut reference_count) = (0_u64, 0_u64);
     for size in references(text).filter_map(|name| sizes.get(name)) {
-        // If entities are nested, each reference is assumed to follow the maximum number of
-        // references to the longest entity.
+        // If entities are nested, each reference is assumed to expand into the longest entity
+        // `MAX_REFERENCES` times.
         expanded = expanded.saturating_add(match are_nested {
             true => MAX_REFERENCES * longest,
             false => *size,

@@ -136,7 +136,7 @@ pub enum TrussInputError {
     /// A node belongs to no bar. Holds the index of the node.
     #[error("node {0} belongs to no bar; add a bar to it or remove it")]
     UnusedNode(usize),
-    /// A list has neither one entry per bar nor no entries.
+    /// A list has entries, but not exactly one per bar.
     #[error("\"{list}\" has {found} entries for {bars} bars; use one per bar or remove the list")]
     PerBar {
         /// Key of the list.
@@ -162,8 +162,8 @@ fn check_items<T>(
     }
 }
 
-/// Returns an error for the first of the given (entry index, referenced index) pairs whose
-/// reference is not below `count`, the number of entries of the referenced `kind`.
+/// Checks references, given as pairs (index of the referring entry, index it refers to). Returns an
+/// error for the first one that is not below `count`, the number of entries of the kind `kind`.
 fn check_references(
     what: &'static str,
     mut references: impl Iterator<Item = (usize, u32)>,

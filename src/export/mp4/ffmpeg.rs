@@ -29,7 +29,8 @@ pub(super) struct FfmpegOutcome {
 /// Messages of ffmpeg on its standard error.
 #[derive(Default)]
 pub(super) struct FfmpegMessages {
-    /// Last line that gives a reason; empty if there is none.
+    /// Last line that gives a reason for a failure: the last non-blank line, except for
+    /// `Conversion failed!`. Empty if there is none.
     pub last: String,
     /// Whether any line, not only the last, reports a full disk.
     pub report_full_disk: bool,

@@ -6,8 +6,8 @@
 //! smallest set of keyframes is then a shortest path (Imai and Iri 1988).
 
 /// Returns the indices of the fewest rows, including the first and the last, such that linear
-/// interpolation between them reproduces every number of all other rows within the tolerance.
-/// `places` holds the place of each row on the time axis, ascending.
+/// interpolation between them reproduces every number of all other rows within the tolerance. A row
+/// holds the numbers sampled at one time; `places` holds the time of each row, ascending.
 ///
 /// The running time is proportional to the product of the number of rows, the number of numbers per
 /// row, and the number of rows that one line can follow.

@@ -26,8 +26,10 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     let timeline = &animation.timeline;
     let frames = timeline.frames();
     let (width, height) = (animation.size.width(), animation.size.height());
-    // Players interpret a remapped time equal to the number of frames as the end. The two numbers
-    // are equal only for a film of one frame, so its precomposition is one frame longer.
+    // Players take a remapped time that equals the number of frames of the film to mean the end,
+    // and show an earlier moment instead. The largest remapped time is the length of the
+    // precomposition. It would equal that number only for a film of one frame, so the
+    // precomposition of such a film is one frame longer.
     let length = if timeline.pass_frames == frames {
         frames + 1
     } else {
@@ -72,8 +74,8 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     })
 }
 
-/// Returns the Lottie time remapping, which assigns to each frame of the film the second of the
-/// precomposition that it shows.
+/// Returns the Lottie time remapping: for each frame of the film, the moment of the precomposition
+/// that the frame shows, in seconds from the start of the precomposition.
 fn time_remap(timeline: &FilmTimeline, secs_at: impl Fn(f64) -> f64) -> Value {
     let secs = |frame: usize| round_number(secs_at(timeline.times[frame]), 6);
     let key = |curve: TimelineCurve| {
@@ -111,10 +113,6 @@ fn scene(layer: &SceneLayer, number: usize, [from, to]: [f64; 2]) -> Value {
 }
 
 /// Returns the group of one shape: its paths, its fill or stroke, and its transform.
-#[expect(
-    clippy::too_many_lines,
-    reason = "one list; longer names wrap its lines"
-)]
 fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     let Some(first) = poses.first() else {
         return json!({"ty": "gr", "it": []});
@@ -144,26 +142,8 @@ fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
             fill["r"] = json!(1);
             fill
         }
-        form => {
-            let mut stroke = colour_and_opacity(layer, poses);
-            stroke["ty"] = json!("st");
-            let width = layer.width(poses, PosedShape::width);
-            stroke["w"] = animated_property(&width, |w| vec![round_number(*w, 3)]);
-            let (join, cap) = match form {
-                ShapeForm::Stroke { join, .. } => (*join, 1),
-                _ => (StrokeJoin::Round, 2),
-            };
-            stroke["lc"] = json!(cap);
-            stroke["lj"] = json!(match join {
-                StrokeJoin::Mitre(limit) => {
-                    stroke["ml"] = json!(limit);
-                    1
-                }
-                StrokeJoin::Round => 2,
-                StrokeJoin::Bevel => 3,
-            });
-            stroke
-        }
+        ShapeForm::Stroke { join, .. } => stroke(layer, poses, *join, LineCap::Butt),
+        ShapeForm::Bars => stroke(layer, poses, StrokeJoin::Round, LineCap::Round),
     });
     let mut still = identity_transform();
     still["ty"] = json!("tr");
@@ -176,6 +156,31 @@ fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
         group["nm"] = json!(words);
     }
     group
+}
+
+/// End of an open line, by its number in Lottie (`lc`).
+#[derive(Clone, Copy)]
+enum LineCap {
+    Butt = 1,
+    Round = 2,
+}
+
+/// Returns the stroke (`st`) of a shape, with its colour, opacity and width over time.
+fn stroke(layer: &SceneLayer, poses: &[PosedShape], join: StrokeJoin, cap: LineCap) -> Value {
+    let mut stroke = colour_and_opacity(layer, poses);
+    stroke["ty"] = json!("st");
+    let width = layer.width(poses, PosedShape::width);
+    stroke["w"] = animated_property(&width, |w| vec![round_number(*w, 3)]);
+    stroke["lc"] = json!(cap as u8);
+    stroke["lj"] = json!(match join {
+        StrokeJoin::Mitre(limit) => {
+            stroke["ml"] = json!(limit);
+            1
+        }
+        StrokeJoin::Round => 2,
+        StrokeJoin::Bevel => 3,
+    });
+    stroke
 }
 
 /// Returns one path per contour of an outline.

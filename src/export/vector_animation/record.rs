@@ -25,8 +25,8 @@ const FIT_TOLERANCE_PX: f64 = 0.02;
 /// half of [`FIT_TOLERANCE_PX`]).
 const TRUNCATION_PX: f64 = 0.01;
 
-/// Maximum distance that a point may jump between two pieces if the second piece counts as a
-/// continuation of the first, in pixels (tolerance: half of `VectorAnimation::TOLERANCE_PX`).
+/// Largest jump of a point from one piece to the next, in pixels, with which the second piece still
+/// counts as a continuation of the first (tolerance: half of `VectorAnimation::TOLERANCE_PX`).
 const JUMP_PX: f64 = 0.1;
 
 /// Precision with which the moments are located at which shapes appear or disappear, as a fraction
@@ -45,8 +45,8 @@ const MAX_PIECES: usize = 400;
 /// limit: each count draws a frame).
 const PREVIEW_STRIDE: usize = 4;
 
-/// Number of equal intervals of a piece at whose ends colours and widths are sampled, if they
-/// change in it at all (heuristic).
+/// Number of equal intervals of a piece at whose ends colours, widths and gradients are sampled. If
+/// none of them changes within the piece, there is only one sample (heuristic).
 const LOOK_INTERVALS: usize = 16;
 
 /// Maximum difference at which colours, widths and gradient numbers count as equal: relative for
@@ -122,8 +122,8 @@ impl AnimationRecorder<'_> {
     }
 
     /// Returns a lower bound on the number of contours that appear or disappear. Each of these
-    /// changes ends a piece, and dozens of frames must be evaluated to locate it. With thousands of
-    /// changes, this would take minutes.
+    /// changes ends a piece, and dozens of frames must be evaluated to locate it. Locating
+    /// thousands of changes would take minutes.
     fn min_changes(&mut self, times: &[f64]) -> Result<usize, ExportError> {
         let (mut changes, mut before) = (0, None);
         for &t in times.iter().step_by(PREVIEW_STRIDE) {
@@ -238,8 +238,8 @@ impl AnimationRecorder<'_> {
         for k in 0..=LOOK_INTERVALS {
             let s = k as f64 / LOOK_INTERVALS as f64;
             let moment = self.moment(from * (1.0 - s) + to * s);
-            // A shape may exist for less than the distance between two nodes; then the number of
-            // shapes differs.
+            // A shape that exists only between two Chebyshev nodes is missing in `moments`, but may
+            // exist at this t. Then the appearances at the start of the piece are used.
             let sampled = if moment.len() == shapes.len() {
                 &moment
             } else {

@@ -79,7 +79,8 @@ pub(super) struct PosedShape {
 }
 
 impl PosedShape {
-    /// Splits a shape of a drawing; `None` for a raster image, which has no points.
+    /// Splits a shape of a drawing into its constant data, its points and its appearance. Returns
+    /// `None` for a raster image, which has no points.
     pub(super) fn of(item: &DrawingItem) -> Option<Self> {
         Some(match item {
             DrawingItem::Fill {

@@ -18,7 +18,8 @@ pub(super) struct FilmTimeline {
     pub fps: f64,
     /// Whether the film loops.
     pub repeats: bool,
-    /// Number of frame intervals from the first t to the last, without the way back.
+    /// Number of frame intervals of one pass, from the first t to the last. The way back of a
+    /// ping-pong film does not count.
     pub pass_frames: usize,
 }
 
@@ -92,8 +93,9 @@ impl FilmTimeline {
     }
 }
 
-/// Regularisation weight of the least-squares fit of the handles (tolerance: if there are too few
-/// values to determine the handles, they become those of a straight line).
+/// Regularisation weight of the least-squares fit of the two handles of a cubic Bézier curve
+/// (tolerance: if there are too few values to determine the handles, they become those of a
+/// straight line).
 const RIDGE: f64 = 1e-9;
 
 /// Course of t from one frame to another, as a cubic Bézier curve. Time and t are both normalised

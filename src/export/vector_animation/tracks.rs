@@ -8,16 +8,16 @@ use super::animation::VectorAnimation;
 use super::keyframes::fewest_keys;
 use super::shape::PosedShape;
 
-/// Maximum deviation of a keyframed point in x and in y each, in pixels (derived: the distance
+/// Maximum deviation of each coordinate of a keyframed point, in pixels (derived: the distance
 /// 0.088 √2, plus 0.04 for removed points and 0.02 for the series, is below
 /// [`VectorAnimation::TOLERANCE_PX`]).
 const POINT_TOLERANCE_PX: f64 = 0.088;
 
-/// Maximum deviation of a keyframed colour channel, of 255 (tolerance: one step of an 8-bit
-/// colour).
+/// Maximum deviation of a keyframed colour channel, on the scale from 0 to 255 (tolerance: one step
+/// of an 8-bit colour).
 const COLOUR_TOLERANCE: f64 = 1.0;
 
-/// Maximum deviation of a keyframed opacity (tolerance: one step of 8 bits).
+/// Maximum deviation of a keyframed opacity in [0, 1] (tolerance: one step of 8 bits).
 const OPACITY_TOLERANCE: f64 = 0.004;
 
 /// Maximum deviation of a keyframed width, in pixels (tolerance: not visible).
@@ -26,21 +26,21 @@ const WIDTH_TOLERANCE_PX: f64 = 0.05;
 /// A scene during one period in which it is visible.
 #[derive(Clone, Debug)]
 pub(super) struct SceneLayer {
-    /// Start of the period on the time axis.
+    /// Start of the period in which the scene is visible, in frames.
     pub from: f64,
-    /// End of the period on the time axis.
+    /// End of the period in which the scene is visible, in frames.
     pub to: f64,
-    /// Places on the time axis at which the shapes were sampled, ascending.
+    /// Times at which the shapes were sampled, in frames (not necessarily whole), ascending.
     pub places: Vec<f64>,
-    /// Samples of each shape, one per place; the lowest shape first.
+    /// For each shape, the lowest first: one sample for each of `places`.
     pub shapes: Vec<Vec<PosedShape>>,
 }
 
 /// A property of a shape over time, reduced to few keyframes.
 #[derive(Clone, Debug)]
 pub(super) struct KeyedProperty<T> {
-    /// Keyframes: places on the time axis, each with the value there. There is only one keyframe if
-    /// the property is constant.
+    /// Keyframes: the time in frames, and the value at that time. There is only one keyframe if the
+    /// property is constant.
     pub keys: Vec<(f64, T)>,
 }
 
@@ -128,8 +128,8 @@ impl SceneLayer {
     }
 }
 
-/// Returns the layers of an animation. `timeline` lists places on the time axis in ascending order,
-/// each with the t shown there. A scene change between two places is located by linear
+/// Returns the layers of an animation. `timeline` lists times in frames, in ascending order, each
+/// with the t shown at that time. A scene change between two of these times is located by linear
 /// interpolation of t.
 pub(super) fn layers(animation: &VectorAnimation, timeline: &[(f64, f64)]) -> Vec<SceneLayer> {
     let scenes = scenes(animation);
@@ -179,8 +179,8 @@ fn scenes(animation: &VectorAnimation) -> Vec<(f64, std::ops::Range<usize>)> {
     scenes
 }
 
-/// Returns the layer of a scene, sampled at the given `stations`. A station is a place on the time
-/// axis and the t shown there.
+/// Returns the layer of a scene, sampled at the given `stations`. A station is a time in frames and
+/// the t shown at that time.
 fn layer(
     animation: &VectorAnimation,
     scenes: &[(f64, std::ops::Range<usize>)],

@@ -44,7 +44,8 @@ fn a_disc_has_its_area_and_lies_on_its_circle() {
 
 #[test]
 fn crossings_are_roots_of_the_function_and_not_of_a_chord() {
-    // The function x³ − 0.2 has samples at 0 and 1; the chord between them has its root at 0.2.
+    // The samples lie at x = 0 and x = 1. The chord between them has its root at 0.2, the function
+    // x³ − 0.2 at the cube root of 0.2.
     let traced = trace(2, 1, |x, _| x.powi(3) - 0.2, 0.0);
     let root = 0.2_f64.cbrt();
     assert_eq!(traced.len(), 1);

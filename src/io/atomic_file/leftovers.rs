@@ -32,7 +32,7 @@ pub(super) fn create_temporary(path: &Path, folder: &Path) -> io::Result<(File, 
         match File::create_new(&temporary) {
             Ok(file) if try_lock(&file)? => return Ok((file, temporary)),
             // Before the new file was locked, another process took it for a leftover. The next
-            // number is tried.
+            // pass of the loop tries a name with the next number.
             Ok(_) => {}
             // The name is used by another thread, or by a process with this id on another machine.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}

@@ -48,7 +48,7 @@ fn reason_and_remedy(kind: ErrorKind) -> Option<(&'static str, &'static str)> {
             "a part of its path is not a folder",
             "choose an existing folder",
         ),
-        // Occurs when the program creates a folder.
+        // Occurs when the program creates a folder and a file already has its name.
         ErrorKind::AlreadyExists => ("the name is already in use", "choose another name"),
         ErrorKind::IsADirectory => ("it is a folder", "choose another name"),
         _ => return None,

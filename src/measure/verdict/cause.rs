@@ -57,7 +57,7 @@ impl<'a> CauseSearch<'a> {
         corners.iter().sum::<DVec2>() / 3.0
     }
 
-    /// Returns the determinant of a face at `t`, relative to the source.
+    /// Returns the signed area of a face at `t`, divided by its area in the source.
     pub fn det(&self, face: usize) -> f64 {
         let mesh = self.arap.mesh();
         let corners = &mesh.faces()[face];

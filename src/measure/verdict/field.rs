@@ -1,4 +1,5 @@
-//! Defects of distance fields: extra pieces, extra holes, and shapes that disappear in between.
+//! Finds the defects of blends of distance fields: extra pieces or holes, and shapes that disappear
+//! at some t between 0 and 1.
 
 use super::defect_scan;
 use super::defect_scan::MomentCounts;
@@ -16,8 +17,9 @@ const LITTLE_OVERLAP: f64 = 0.5;
 /// Creates a defect from the largest count at any t and the larger of the counts at the two ends.
 type FieldFinding = fn(usize, usize) -> FindingKind;
 
-/// Finds when the contour of a distance field disappears or has extra pieces or holes, and tests
-/// whether the other blend space has fewer of these defects.
+/// Finds when the contour of a blend of distance fields disappears or has extra pieces or holes.
+/// Also tests whether there are fewer of these defects on the other scale of distances (linear
+/// instead of logarithmic, or the reverse).
 pub(super) fn field_findings(
     transition: &Transition,
     pair: &FieldPair,
@@ -67,7 +69,8 @@ fn finding(
     span: [f64; 2],
 ) -> Finding {
     let overlap_fraction = overlap(pair);
-    // Without overlap, shapes disappear and appear in any blend space.
+    // If the designs hardly overlap, shapes disappear and appear on either scale of distances,
+    // linear or logarithmic.
     let (cause, remedy) = if overlap_fraction < LITTLE_OVERLAP {
         (
             FindingCause::LittleOverlap {

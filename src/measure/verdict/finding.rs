@@ -40,21 +40,21 @@ pub enum FindingKind {
         /// All crossings at the sampled t with the most crossings.
         crossings: Vec<EdgeCrossing>,
     },
-    /// A contour has more pieces than at either end.
+    /// At some t, the contour of a distance field has more pieces than at t = 0 and at t = 1.
     Pieces {
         /// Largest number of pieces at any sampled t.
         count: usize,
         /// Number of pieces at t = 0 or t = 1, whichever is larger.
         at_ends: usize,
     },
-    /// A contour has more holes than at either end.
+    /// At some t, the contour of a distance field has more holes than at t = 0 and at t = 1.
     Holes {
         /// Largest number of holes at any sampled t.
         count: usize,
         /// Number of holes at t = 0 or t = 1, whichever is larger.
         at_ends: usize,
     },
-    /// A contour disappears completely.
+    /// At some t, the contour of a distance field disappears completely.
     Gone,
     /// A warp of the plane folds.
     PlaneFolds {
@@ -124,8 +124,8 @@ pub enum FindingCause {
     BlindFields,
     /// The warp of the plane folds, so that parts of a design are drawn more than once.
     SeenTwice,
-    /// The lattices must not fold, and no warp without folds was found that brings a pin to its
-    /// position.
+    /// The B-spline lattices of the warp must not fold, and no warp without folds was found that
+    /// brings all pins to their positions.
     OutOfReach,
     /// Pins come so close to each other that the warp cannot bring both to their positions.
     FeaturesMeet,
@@ -168,13 +168,13 @@ pub enum Remedy {
     LayOver,
     /// Use rigid parts instead of distance fields or boundary paths.
     RigidParts,
-    /// Use lattices that must not fold, or move or delete pins or lines.
+    /// Use the warp of B-spline lattices without folds, or move or delete pins or lines.
     Lattices,
-    /// Allow the lattices to fold, or move or delete pins.
+    /// Allow the B-spline lattices of the warp to fold, or move or delete pins.
     LetFold,
     /// Move or delete pins.
     MovePins,
-    /// Move the path over the map, so that it leads through other blends.
+    /// Change the path on the map of designs, so that it leads through other blends.
     AnotherWay,
 }
 

@@ -21,7 +21,7 @@ fn keep_worst(worst: &mut WorstFold, size: f64, mut finding: Finding) {
     if let Some((largest_size, largest)) = worst {
         largest.span[1] = finding.t;
         finding.span = largest.span;
-        // If both have the same size, the earlier one stays; its span is already extended.
+        // If the new finding is not larger, the earlier one stays; its span has just been extended.
         if size <= *largest_size {
             return;
         }

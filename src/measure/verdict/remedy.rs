@@ -65,7 +65,8 @@ pub(super) fn try_rigid_part_options(
 }
 
 /// Returns the remedy of a finding, with a pin at the same place instead of vertex edits. If the
-/// cause is an uneven match, always returns a pin at that match.
+/// cause is an uneven match, always returns a pin at the boundary point where the stretch was
+/// measured.
 fn with_pin(finding: &Finding) -> Remedy {
     match (&finding.cause, &finding.remedy) {
         (&FindingCause::UnevenMatch { source, target, .. }, _)

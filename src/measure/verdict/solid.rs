@@ -1,4 +1,4 @@
-//! Finds the defects of solids, folded faces and crossing boundaries, with their causes.
+//! Finds the defects of solids (folded faces and crossing boundaries) and their causes.
 
 use super::cause;
 use super::cause::CauseSearch;

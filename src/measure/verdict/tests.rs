@@ -186,7 +186,8 @@ fn a_large_rotation_within_one_part_is_measured_relative_to_the_whole() {
         options_with(Homotopy::Polar),
     );
     with_search(&uncoiled, |search| {
-        // The faces at the ends rotate by about a full turn relative to the middle.
+        // The faces at the two ends of the band rotate by about a full turn relative to those in
+        // its middle.
         let Some(FindingCause::FarTurn { part: None, turn }) = cause::large_rotation(search, 0)
         else {
             panic!("{:?}", cause::large_rotation(search, 0));

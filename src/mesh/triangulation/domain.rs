@@ -38,7 +38,8 @@ pub(super) type ConstrainedDelaunay = ConstrainedDelaunayTriangulation<Point2<f6
 /// Stands for "no loop corner" at a vertex of a face, and for "no vertex".
 const NONE: u32 = u32::MAX;
 
-/// A corner of a loop: indices of the merged points before, at and after it.
+/// A corner of a loop: indices, among the distinct points of all loops, of the points before, at
+/// and after the corner.
 type LoopCorner = [u32; 3];
 
 /// A connected piece as a constrained Delaunay triangulation of its distinct points.
@@ -46,9 +47,11 @@ pub(super) struct TriangulationDomain {
     pub(super) delaunay: ConstrainedDelaunay,
     /// Corners of all loops, one loop after another.
     merged: Vec<LoopCorner>,
-    /// Number of merged points; points added by refinement follow them in `delaunay`.
+    /// Number of distinct points of the loops; points added by refinement follow them in
+    /// `delaunay`.
     point_count: usize,
-    /// Directed edges of the loops between merged points; those of a slit occur in both directions.
+    /// Directed edges of the loops, as pairs of indices of distinct points. Edges along a slit
+    /// occur in both directions.
     directed_edges: HashSet<[u32; 2]>,
 }
 
@@ -104,7 +107,7 @@ impl TriangulationDomain {
         Ok(domain)
     }
 
-    /// Returns the loops' corners, then the added points.
+    /// Returns the positions of the loops' corners, then those of the points added by refinement.
     pub(super) fn points<W: AsRef<[DVec2]>>(&self, loops: &[W]) -> Vec<DVec2> {
         let corners = loops.iter().flat_map(|w| w.as_ref().iter().copied());
         let added = self.delaunay.vertices().skip(self.point_count);
@@ -124,9 +127,9 @@ impl TriangulationDomain {
         if winding[1..].iter().any(|w| !(0..=1).contains(w)) {
             return Err(TriangulationError::NotOnePiece);
         }
-        // A wedge is a part of the piece between two loop edges at a point. `corners` fails unless
-        // every loop corner bounds exactly one wedge. It then assigns all corners of faces, because
-        // every wedge begins at an outgoing edge of a loop.
+        // A wedge is a sector of the piece at a point, between two loop edges. `corners` fails
+        // unless every loop corner bounds exactly one wedge. If it succeeds, every corner of a face
+        // of the piece has a loop corner, because every wedge begins at an outgoing loop edge.
         self.corners(&winding)
             .ok_or(TriangulationError::NotSimple)?;
         // The leftmost point belongs to the outer boundary, so it must be a corner of the first
@@ -181,16 +184,17 @@ impl TriangulationDomain {
         first.is_some_and(|(first, _)| inside.all(|(other, _)| other == first))
     }
 
-    /// Returns for each face the indices of the loop corners at its three vertices, or [`NONE`] at
-    /// a vertex that refinement added. Returns `None` if, at some loop corner, the two edges of the
-    /// loop do not bound exactly one wedge of the piece.
+    /// Returns for each face the indices of the loop corners at its three vertices. The index is
+    /// [`NONE`] at a vertex that refinement added, and for all faces outside the piece. Returns
+    /// `None` if, at some loop corner, the two edges of the loop do not bound exactly one wedge of
+    /// the piece.
     fn corners(&self, winding: &[i32]) -> Option<Vec<[u32; 3]>> {
         let mut corners = vec![[NONE; 3]; winding.len()];
         for (corner, points) in (0..).zip(&self.merged) {
             let [before, here, after] = points.map(|v| FixedVertexHandle::from_index(v as usize));
             let mut edge = self.delaunay.get_edge_from_neighbors(here, after)?;
-            // The piece lies on the left of its loops: counter-clockwise from a corner's outgoing
-            // edge to its incoming edge.
+            // The piece lies on the left of its loops. Visit its faces around the corner
+            // counter-clockwise, from the outgoing edge to the incoming edge.
             loop {
                 let face = edge.face().as_inner()?;
                 let k = (0..3).find(|&k| face.vertices()[k].fix() == here)?;
@@ -212,7 +216,7 @@ impl TriangulationDomain {
     }
 
     /// Returns the faces of the piece. Vertex indices count the corners of all loops, then the
-    /// added points.
+    /// points added by refinement.
     pub(super) fn faces(&self) -> Vec<[u32; 3]> {
         let winding = self.winding();
         // Always `Some`: the corners were checked, and refinement splits no loop edge.

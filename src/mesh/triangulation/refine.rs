@@ -38,9 +38,10 @@ type BadFaceRank = (u64, Reverse<[FixedVertexHandle; 3]>);
 
 /// Limits beyond which a face counts as bad.
 struct FaceLimits {
-    /// Minimum of the squared ratio of a face's shortest edge to its circumradius.
+    /// A face is bad if the square of its shortest edge, divided by the square of its circumradius,
+    /// is below this limit.
     ratio: f64,
-    /// Maximum area of a face.
+    /// A face is bad if its area exceeds this limit.
     area: f64,
     /// Area below which a face is never refined.
     least_area: f64,

@@ -138,7 +138,7 @@ impl BernsteinPolynomial {
     }
 
     /// Returns whether the polynomial is proved to be positive on [0, 1]. `ends` contains the signs
-    /// at both ends, as far as they are known exactly.
+    /// of the polynomial at 0 and at 1, as far as they are known exactly.
     pub(super) fn is_positive(&self, ends: [EndSign; 2]) -> bool {
         let c = self.coefficients();
         let last = self.degree;
@@ -164,7 +164,8 @@ pub(super) enum EndSign {
 }
 
 impl EndSign {
-    /// Returns the sign of a number that has the exact sign of the polynomial.
+    /// Returns the sign of the polynomial, given the result `exact` of an exact predicate that has
+    /// the same sign.
     pub(super) fn of(exact: f64) -> Self {
         if exact > 0.0 {
             Self::Positive

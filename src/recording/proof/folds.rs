@@ -1,5 +1,5 @@
-//! Finds the first face in a time interval that may fold: its signed area is not proved to be
-//! positive.
+//! Finds the earliest time in an interval at which a face may fold. A face may fold where its
+//! signed area is not proved to be positive.
 
 use super::bernstein::{BernsteinPolynomial, BernsteinProducts, EPS, EndSign};
 use super::vertex_curve::{IntervalCurves, VertexCurve};
@@ -12,9 +12,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// 2⁻³⁰ of the interval, about 1e-9).
 pub(super) const MAX_HALVINGS: u32 = 30;
 
-/// Returns the smallest s in the interval at which a face is not proved to be positively oriented,
-/// and the index of that face. `at_ends` marks the ends of the interval that are t = 0 or t = 1;
-/// there the vertices have the exact positions of the designs.
+/// Returns the earliest time in the interval at which a face is not proved to be positively
+/// oriented, as the fraction s of the interval, and the index of that face. `at_ends` marks the
+/// ends of the interval that are t = 0 or t = 1; there the vertices have the exact positions of the
+/// designs.
 pub(super) fn first_fold(
     curves: &IntervalCurves,
     faces: &[[u32; 3]],
@@ -46,8 +47,8 @@ pub(super) fn first_fold(
     Ok(first)
 }
 
-/// Smallest s of all failures that any thread has found so far. Parts of the interval beyond this s
-/// need not be examined.
+/// Earliest time at which any thread has failed to prove a property, as the fraction s of the
+/// interval. No thread needs to examine later times.
 pub(super) struct EarliestFailure(AtomicU64);
 
 impl Default for EarliestFailure {
@@ -57,14 +58,14 @@ impl Default for EarliestFailure {
 }
 
 impl EarliestFailure {
-    /// Returns whether a failure before `s` is known.
+    /// Returns whether a proof has already failed at a time before `s`.
     pub(super) fn is_before(&self, s: f64) -> bool {
         // Relaxed ordering suffices, because the number only saves work. The bits of non-negative
         // floats are ordered like the floats.
         self.0.load(Ordering::Relaxed) < s.to_bits()
     }
 
-    /// Records a failure at `s` and returns `s`.
+    /// Records that a proof has failed at `s`, and returns `s`.
     pub(super) fn report(&self, s: f64) -> f64 {
         self.0.fetch_min(s.to_bits(), Ordering::Relaxed);
         s
@@ -98,8 +99,9 @@ pub(super) fn product(
     };
     let [(u, max_u, error_u), (v, max_v, error_v)] = [first, second].map(between);
     let mut sum = products.sum(|i, j| of(u[i], v[j]));
-    // Each of the two products of coordinates has the errors of its factors. The sum has as many
-    // roundings as terms.
+    // The result is the sum of two products of coordinates, hence the factor 2 below. The error of
+    // each product consists of the errors of its factors, and of one rounding for each term of its
+    // sum.
     let factor_error = error_u * max_v + error_v * max_u + error_u * error_v;
     let rounding = (2 * u.len() + 8) as f64 * EPS * max_u * max_v;
     sum.error = 2.0 * (factor_error + rounding);

@@ -18,12 +18,13 @@ use std::collections::BTreeMap;
 /// Maximum number of nearby vertex–edge pairs for each edge; an interval with more is halved
 /// (resource limit).
 const MAX_PAIRS_PER_EDGE: usize = 12;
-/// Maximum number of times that an interval is halved to reduce the number of pairs (resource
-/// limit: 2¹⁰ parts).
+/// Maximum number of times that an interval is halved to reduce the number of nearby vertex–edge
+/// pairs (resource limit: 2¹⁰ parts).
 const MAX_INTERVAL_HALVINGS: u32 = 10;
 
-/// Length in t, next to t = 0 and t = 1, in which pairs that touch at that end are not tested
-/// (tolerance: the two sides of a cut need some time to come apart).
+/// Vertex–edge pairs that touch at t = 0 are not tested for t below this length, and pairs that
+/// touch at t = 1 are not tested for t above 1 minus this length (tolerance: the two sides of a cut
+/// need some time to come apart).
 const UNTESTED_LENGTH: f64 = 1.0 / 1024.0;
 
 /// Returns the values of s at which the sections of an interval end. An interval that begins at t =
@@ -36,7 +37,8 @@ fn piece_ends(at_ends: [bool; 2], length: f64) -> Vec<f64> {
     begin.into_iter().chain(end).chain([1.0]).collect()
 }
 
-/// Meeting of a vertex and an edge: its s, the vertex, the edge, and the position of the vertex.
+/// Meeting of a vertex and an edge: its time as the fraction s of the interval, the vertex, the
+/// edge, and the position of the meeting in the plane.
 type VertexEdgeMeeting = (f64, u32, [u32; 2], DVec2);
 
 /// Result of the search for meetings in one interval.
@@ -44,8 +46,8 @@ type VertexEdgeMeeting = (f64, u32, [u32; 2], DVec2);
 pub(super) struct IntervalMeetings {
     /// The earliest meeting; `None` if all outlines are proved to be apart.
     pub first: Option<VertexEdgeMeeting>,
-    /// Number of vertex–edge pairs that touch at t = 0 or t = 1 and were not tested next to that
-    /// end.
+    /// Number of vertex–edge pairs that touch at t = 0 or t = 1 and were not tested at times close
+    /// to that t.
     pub touching: usize,
 }
 
@@ -153,8 +155,9 @@ impl<'a> MeetingSearch<'a> {
         }
     }
 
-    /// Returns a crossing of two loops of the same layer at the beginning of `curves`, or `None`.
-    /// `s` is the place of this beginning in the interval and is copied to the result.
+    /// Returns a crossing of two loops of the same layer at the beginning of `curves`; `None` if no
+    /// loops cross. The beginning of `curves` is at the fraction `s` of the interval; `s` becomes
+    /// the time of the result.
     fn first_crossing(
         &self,
         curves: &[VertexCurve],
@@ -181,8 +184,9 @@ impl<'a> MeetingSearch<'a> {
         Some((s, vertex, edge, crossing.place))
     }
 
-    /// Returns the earliest meeting in the part `[from, to]` of the interval. `curves` are the
-    /// curves of the vertices during this part. The part may be halved up to `halvings` times.
+    /// Returns the earliest meeting in a part of the interval, from the fraction `from` to the
+    /// fraction `to`. `curves` are the curves of the vertices during this part. The part may be
+    /// halved up to `halvings` times.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is cancelled.
@@ -271,7 +275,7 @@ impl<'a> MeetingSearch<'a> {
         Some(pairs)
     }
 
-    /// Returns whether the vertex of a pair lies on its edge at t = 0 or t = 1. `at_ends` tells
+    /// Returns whether the vertex of a pair lies on its edge at t = 0 or t = 1. `at_ends` marks
     /// whether the curves begin at t = 0 and whether they end at t = 1.
     fn touches(
         &self,
@@ -291,13 +295,37 @@ impl<'a> MeetingSearch<'a> {
         (at_ends[0] && touches_at(0)) || (at_ends[1] && touches_at(last))
     }
 
+    /// Returns whether the signs of the Bernstein coefficients prove that the point p stays off the
+    /// edge a–b throughout: on one side of the line ab, behind a, or beyond b.
+    ///
+    /// The arguments are the curves of a, b and p. `at_ends` marks the ends of these curves at
+    /// which the exact predicate decides on which side of the line p lies.
+    fn is_apart(&self, [a, b, p]: [&VertexCurve; 3], at_ends: [bool; 2]) -> bool {
+        let last = p.control_points.len() - 1;
+        let exact = [0, last].map(|k| {
+            let [a, b, p] = [a, b, p].map(|curve| curve.control_points[k]);
+            orient2d(a, b, p)
+        });
+        let known_signs = |sign: f64| {
+            let at = |end: usize| match at_ends[end] {
+                true => EndSign::of(sign * exact[end]),
+                false => EndSign::Unknown,
+            };
+            [at(0), at(1)]
+        };
+        let none = [EndSign::Unknown; 2];
+        let side = twice_area(&self.products, [a, b, p]);
+        let behind = || product(&self.products, [a, p], [a, b], DVec2::dot).negated();
+        let ahead = || product(&self.products, [b, p], [a, b], DVec2::dot);
+        side.is_positive(known_signs(1.0))
+            || side.negated().is_positive(known_signs(-1.0))
+            || behind().is_positive(none)
+            || ahead().is_positive(none)
+    }
+
     /// Returns the smallest s in `[from, to]` at which the third curve is not proved to be off the
     /// edge between the first two, by bisection. The result is `None` if the third curve is off the
     /// edge throughout, or if a failure before `from` is already known.
-    #[expect(
-        clippy::too_many_lines,
-        reason = "one list; longer names wrap its lines"
-    )]
     fn first_contact(
         &self,
         curves: [VertexCurve; 3],
@@ -310,36 +338,13 @@ impl<'a> MeetingSearch<'a> {
             return None;
         }
         let [a, b, p] = curves.each_ref();
-        let last = p.control_points.len() - 1;
         let [low, high] = p.bounds();
         let [of_a, of_b] = [a, b].map(VertexCurve::bounds);
         let (edge_low, edge_high) = (of_a[0].min(of_b[0]), of_a[1].max(of_b[1]));
         if low.cmpgt(edge_high).any() || high.cmplt(edge_low).any() {
             return None;
         }
-        let side = twice_area(&self.products, [a, b, p]);
-        let exact = [0, last].map(|k| {
-            orient2d(
-                a.control_points[k],
-                b.control_points[k],
-                p.control_points[k],
-            )
-        });
-        let known_signs = |sign: f64| {
-            let at = |end: usize| match at_ends[end] {
-                true => EndSign::of(sign * exact[end]),
-                false => EndSign::Unknown,
-            };
-            [at(0), at(1)]
-        };
-        let none = [EndSign::Unknown; 2];
-        let behind = || product(&self.products, [a, p], [a, b], DVec2::dot).negated();
-        let ahead = || product(&self.products, [b, p], [a, b], DVec2::dot);
-        if side.is_positive(known_signs(1.0))
-            || side.negated().is_positive(known_signs(-1.0))
-            || behind().is_positive(none)
-            || ahead().is_positive(none)
-        {
+        if self.is_apart([a, b, p], at_ends) {
             return None;
         }
         if halvings == 0 {

@@ -7,8 +7,8 @@ use crate::warp::{Placement, Placer, Warp};
 use crate::work::progress::Silent;
 use std::sync::Arc;
 
-/// Warp of points that move as a function of their index and t. The fields are the faces, the
-/// number of points and the function.
+/// Warp of points. The fields are the faces, the number of points, and a function that returns the
+/// position of a point from its index and t.
 struct FunctionWarp<F>(Vec<[u32; 3]>, usize, F);
 
 impl<F> std::fmt::Debug for FunctionWarp<F> {

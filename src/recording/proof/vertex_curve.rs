@@ -58,8 +58,9 @@ impl<'a> IntervalCurves<'a> {
             at.iter_mut().zip(own).for_each(|(at, own)| *at += c * *own);
         }
         [at[0], at[degree]] = [begin, end];
-        // The bound counts one rounding for each term of each sum, and some for the straight line
-        // and the basis. The same number is added for the recording as it is played.
+        // Half of the bound is for the rounding of the control points: one rounding for each term
+        // of each sum, and some for the straight line and the basis. The other half is for the same
+        // rounding in the recording as it is played.
         let error = (4 * degree + 16) as f64 * EPS * scale;
         VertexCurve {
             control_points: at,

@@ -73,7 +73,7 @@ const ATTEMPTS_PROGRESS: f64 = 0.7;
 
 /// An attempt to find better matches for some pieces of a group.
 struct Attempt {
-    /// Result that the attempt improves.
+    /// Selects which of the two results of the search the attempt improves.
     branch: SearchBranch,
     /// The attempt includes the pieces that meet all of these conditions.
     conditions: &'static [PieceCondition],
@@ -211,7 +211,8 @@ const UPRIGHT: Attempt = Attempt {
     progress: [0.3, 0.34],
 };
 
-/// The only attempt of a draft.
+/// The only attempt in draft quality: keeps the drawn orientation of pieces that turn far, as
+/// [`UPRIGHT`] does, but with less work.
 const DRAFT: Attempt = Attempt {
     max_work: MAX_DRAFT_WORK,
     progress: [REQUESTED_DRAFT_PROGRESS, 1.0],

@@ -27,10 +27,12 @@ const MESH_PROGRESS: f64 = 0.9;
 /// faces are left out (heuristic: the corners of every triangulation are distorted).
 const IGNORED_AREA: f64 = 0.05;
 
-/// Exponent of the factor (1 + excess turning of the outlines) in the misfit (heuristic).
+/// Exponent of the factor (1 + excess turning of the outlines) in the misfit, which rates the
+/// candidates (heuristic).
 const TURNING_EXPONENT: i32 = 3;
 
-/// Exponent of the factor (1 + number of half turns of the piece) in the misfit (heuristic).
+/// Exponent of the factor (1 + number of half turns of the piece) in the misfit, which rates the
+/// candidates (heuristic).
 const ROTATION_EXPONENT: i32 = 2;
 
 /// Largest rotation, in radians, with which a piece counts as staying upright (heuristic).
@@ -55,11 +57,11 @@ struct MotionDefects {
     folds: usize,
     /// Number of crossings of the outlines, summed over all samples.
     crossings: usize,
-    /// Largest amount, over all samples, by which the total turning of the outlines exceeds its
-    /// linear interpolation between the two ends, as a fraction of the interpolated value.
+    /// Largest amount, over all samples, by which the total turning of the outlines exceeds the
+    /// linear interpolation of its values at t = 0 and t = 1, as a fraction of that interpolation.
     turning: f64,
-    /// Largest amount, over all samples, by which the area exceeds its linear interpolation between
-    /// the two ends, as a fraction of the interpolated value.
+    /// Largest amount, over all samples, by which the area exceeds the linear interpolation of its
+    /// values at t = 0 and t = 1, as a fraction of that interpolation.
     swelling: f64,
     /// Rotation of the piece as a whole, in radians.
     rotation: f64,
@@ -102,8 +104,8 @@ impl MatchCandidate {
             .map_err(CandidateError::Mesh)?;
         let defects = if matched.is_matched() {
             // The piece is rated on its own, with default weights and anchor, because the requested
-            // ones refer to the whole design. The polar homotopy replaces the bounded one, which is
-            // expensive and has the same ends.
+            // ones refer to the whole design. The bounded homotopy is too expensive for a rating
+            // and is replaced by the polar one, which starts and ends with the same shapes.
             let homotopy = match options.arap.homotopy {
                 Homotopy::Bounded => Homotopy::Polar,
                 homotopy => homotopy,
@@ -191,7 +193,7 @@ impl MotionDefects {
             let absent = loops.len() + unmatched_holes.len() - rings.len();
             turned.push([t, total_turning(&rings, diameter) + TAU * absent as f64]);
             areas.push([t, rings.iter().map(|ring| signed_area(ring)).sum::<f64>()]);
-            // At the ends, the frames are the designs themselves, which have no defects.
+            // At t = 0 and t = 1, the frames are the designs themselves, which have no defects.
             if step > 0 && step < STEPS {
                 folds += count_folded(arap, places);
                 crossings += count_crossings(&rings);

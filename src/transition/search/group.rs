@@ -9,7 +9,8 @@ use crate::transition::spec::TransitionSpec;
 use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled};
 use rayon::prelude::*;
 
-/// Progress of one variant, in [0, 1], reported once its pieces are matched (heuristic).
+/// Progress in trying one variant of the match options, in [0, 1], reported once the pieces are
+/// matched with it (heuristic).
 const MATCH_PROGRESS: f64 = 0.2;
 
 /// The result for a piece: its best candidate, or the matched piece and the reason why it cannot be

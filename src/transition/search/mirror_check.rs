@@ -53,8 +53,8 @@ pub(in crate::transition) fn mirror_note(
     Ok(far_better.map(|mirrored| TransitionNote::Mirrored { as_drawn, mirrored }))
 }
 
-/// Returns the pieces of the first match of two designs; `None` if a piece cannot be matched or
-/// triangulated.
+/// Matches two designs with the requested options, without a search for better matches, and returns
+/// the pieces; `None` if a piece cannot be matched or triangulated.
 fn draft(
     spec: &TransitionSpec,
     designs: [&Regions; 2],

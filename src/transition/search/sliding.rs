@@ -15,8 +15,8 @@ use rayon::prelude::*;
 /// Maximum number of times that the correspondence of a piece is slid (resource limit).
 const MAX_SLIDES: u32 = 3;
 
-/// Distortion below which a candidate is not improved further, as for two drawings of the same
-/// shape (heuristic).
+/// Distortion below which a candidate is not improved further. Matches between two drawings of the
+/// same shape have so little distortion (heuristic).
 pub(super) const LOW_DISTORTION: f64 = 1.02;
 
 /// For each piece, slides its candidate in `paired` and, if there is one, its candidate in

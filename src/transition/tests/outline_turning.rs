@@ -6,9 +6,9 @@ use crate::geometry::{count_crossings, max_overshoot, total_turning};
 use crate::warp::{Arap, Warp};
 use std::path::Path;
 
-/// Returns the largest amount by which the total turning of the outlines exceeds its linear
-/// interpolation between the ends, as a fraction of the interpolated value. Also returns the number
-/// of crossings, summed over all samples.
+/// Returns the largest amount by which the total turning of the outlines exceeds the linear
+/// interpolation of its values at t = 0 and t = 1, as a fraction of that interpolation. Also
+/// returns the number of crossings of the outlines, summed over all samples.
 fn excess_and_crossings(arap: &Arap) -> (f64, usize) {
     let mut placer = arap.placer();
     let loops = arap.mesh().boundary_loops();
@@ -40,7 +40,8 @@ fn outline_terms_reduce_turning_and_add_no_crossings() {
         let [source, target] = [source, target].map(|name| letter(&format!("glyph:{name}")));
         let transition = Transition::build(&TransitionSpec::new(source, target), &Silent).unwrap();
         let arap = transition.arap().unwrap();
-        // `plain` interpolates the same mesh without the terms for outlines.
+        // `plain` interpolates the same mesh without the terms and constraints for outlines that
+        // [`Arap::of_outlines`] adds.
         let plain = Arap::build(arap.mesh(), arap.options(), &Silent).unwrap();
         let [arap, plain] = [arap, &plain].map(excess_and_crossings);
         assert!(arap.1 <= plain.1, "{arap:?} {plain:?}");

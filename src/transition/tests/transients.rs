@@ -165,7 +165,8 @@ fn a_ring_around_other_parts_appears_as_a_line_that_thickens() {
         let frame = there.frame(t);
         let rings = frame.figure().rings;
         assert_eq!(count_crossings(&rings), 0, "{t}");
-        // The face of every ring must be found, so that crossings can be reported.
+        // For an edge of every ring, the face on which it lies must be found: reports of crossings
+        // need it.
         if let Content::Solid(solid) = there.content() {
             let places = &frame.placement().in_frame;
             for ring in 0..solid.rings_at(places, t).len() {
@@ -198,7 +199,7 @@ fn designs_without_any_matched_part_are_interpolated() {
     }
     let transition = Transition::build(&spec, &Silent).unwrap();
     let mut frame = transition.frame(0.0);
-    // At each end, the square that is absent there is a seed shape of negligible area.
+    // At t = 0 and t = 1, the square that is absent is a seed shape of negligible area.
     for (t, expected) in [(0.0, 900.0), (1.0, 1600.0)] {
         frame.seek(t);
         let found = area(&frame.figure().rings);

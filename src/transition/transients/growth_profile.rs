@@ -3,7 +3,8 @@
 use crate::geometry::{DVec2, signed_area, total_turning};
 use std::f64::consts::TAU;
 
-/// Number of equal steps of the size for which turning and area are tabulated (resource limit).
+/// Number of equal steps from size 0 to the full size of a growing shape, for which its turning and
+/// area are tabulated (resource limit).
 pub(in crate::transition) const SIZE_STEPS: usize = 16;
 
 /// Table of the total turning and the area of a growing shape, in equal steps from size 0 to full

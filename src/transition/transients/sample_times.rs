@@ -1,22 +1,23 @@
 //! The times at which the motion is sampled to detect collisions.
 //!
-//! The times divide [0, 1] into equal steps. The steps near both ends are subdivided, because parts
-//! that appear or disappear there are still close to other parts. More times can be added where a
-//! motion turns out to need them.
+//! The times divide [0, 1] into equal steps. The steps near t = 0 and t = 1 are subdivided, because
+//! parts that appear or disappear there are still close to other parts. More times can be added
+//! where a motion turns out to need them.
 
 /// Number of equal steps before subdivision (resource limit).
 const EVEN_STEPS: u32 = 64;
-/// Number of steps at each end that are subdivided (heuristic).
+/// Number of equal steps after t = 0, and also before t = 1, that are subdivided (heuristic).
 const SUBDIVIDED_STEPS: u32 = 2;
-/// Number of equal parts into which each of the steps near the ends is subdivided (heuristic).
+/// Number of equal intervals into which each of the steps near t = 0 and t = 1 is subdivided
+/// (heuristic).
 const SUBDIVISION: u32 = 4;
 
-/// Length of the equal intervals into which the steps near both ends are subdivided. The first
-/// interval after t = 0 and the last one before t = 1 are subdivided once more. Parts of a design
-/// that appear or disappear at once do so within this time.
+/// Length, in units of t, of the intervals into which the steps near t = 0 and t = 1 are
+/// subdivided. The interval that begins at t = 0 and the one that ends at t = 1 are subdivided once
+/// more. If no longer time window suits a part, it appears or disappears within this time.
 pub(in crate::transition) const FINE_STEP: f64 = 1.0 / (EVEN_STEPS * SUBDIVISION) as f64;
 
-/// Unit to whose multiples added times are rounded, so that the reversed motion has the same times
+/// Added times are rounded to multiples of this, so that the reversed motion has the same times
 /// (tolerance: far shorter than a step).
 const GRAIN: f64 = 1.0 / 65_536.0;
 

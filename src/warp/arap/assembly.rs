@@ -25,11 +25,11 @@ use crate::warp::part_path::{centroid, rotation};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FaceMap {
     pub map: PolarDecomposition,
-    /// Gradients of the hat functions of the second and third vertex in the source.
+    /// Gradients, in the source, of the hat functions of the second and third vertex (columns).
     pub gradients: DMat2,
-    /// `gradients` multiplied by the face's weight matrix W (see the module).
+    /// Product of the face's weight matrix W_T (see the module) and `gradients`.
     pub weighted: DMat2,
-    /// Gradients of the same hat functions in the target.
+    /// Gradients, in the target, of the hat functions of the second and third vertex (columns).
     pub target_gradients: DMat2,
     /// Factors of the two terms of the face's energy: the term with the gradients in the source and
     /// the term with the gradients in the target.
@@ -67,16 +67,16 @@ impl FaceMap {
 /// Local map of a two-point element: a bar that belongs to no face, or a boundary edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ElementMap {
-    /// Vertices at both ends.
+    /// Indices of the vertices at the two ends of the element.
     pub ends: [u32; 2],
-    /// Vector between the ends in the source.
+    /// Vector in the source from the first end of the element to the second.
     pub vector: DVec2,
-    /// Rotation from source to target, in radians.
+    /// Rotation of the element from source to target, in radians.
     pub angle: f64,
-    /// Ratio of the length in the target to the length in the source.
+    /// Ratio of the element's length in the target to its length in the source.
     pub stretch: f64,
-    /// Factor of |Δv − e(t)|² in the energy: Δv is the vector between the ends, e(t) the required
-    /// one.
+    /// Factor of |Δv − e(t)|² in the energy, where Δv is the vector between the element's ends and
+    /// e(t) is the vector that it should have at t.
     pub stiffness: f64,
 }
 
@@ -85,15 +85,15 @@ pub(super) struct ElementMap {
 #[derive(Clone, Debug)]
 pub(super) struct LocalMaps {
     pub faces: Vec<FaceMap>,
-    /// Bars, followed by boundary edges.
+    /// Local maps of the bars, followed by those of the boundary edges.
     pub elements: Vec<ElementMap>,
     /// Number of edge-connected components of the faces.
     pub part_count: usize,
     /// Rotation of the whole design in radians.
     pub whole_angle: f64,
     /// Mass of each vertex: a third of the area of its faces plus half of the area of its bars,
-    /// where a bar has the area length²/2. It is a fraction of the total area, averaged over both
-    /// designs.
+    /// where a bar has the area length²/2. Masses are fractions of the total area, averaged over
+    /// both designs.
     pub masses: Vec<f64>,
     /// For each face, the factor of its weight; 1 for faces beyond the end of the list.
     pub stiffness: Vec<f64>,
@@ -217,11 +217,12 @@ impl LocalMaps {
         matrix
     }
 
-    /// Returns the contributions of faces and elements to K, and their diagonal.
+    /// Returns the sum of the contributions of all faces and elements to K, and the diagonal of
+    /// this sum.
     fn energy(&self, mesh: &CompatibleMesh) -> (SymmetricMatrix, Vec<f64>) {
         let n = mesh.source().len();
-        // Capacity: six entries per face and three per element; the fourth leaves room for
-        // grounding.
+        // Each face adds six entries and each element three. The capacity has a fourth entry per
+        // element, as room for grounding.
         let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
         let mut diagonal = vec![0.0; n];
         for (face, map) in mesh.faces().iter().zip(&self.faces) {

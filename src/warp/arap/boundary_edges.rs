@@ -23,8 +23,9 @@ use super::time_window::TimeWindow;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{Bounds, DVec2};
 
-/// Factor of |Δv − e(t)|² in the energy for a boundary edge that is as long as the diameter of its
-/// part (heuristic).
+/// Stiffness of a boundary edge that is as long as the diameter of its part (heuristic). The
+/// stiffness is the factor, in the energy, of the squared difference between the edge's vector and
+/// the vector that it should have.
 const STIFFNESS: f64 = 0.12;
 
 /// Maximum stiffness of a boundary edge. It limits the effect of extremely short edges, whose
@@ -32,7 +33,8 @@ const STIFFNESS: f64 = 0.12;
 const MAX_STIFFNESS: f64 = 1e4;
 
 impl LocalMaps {
-    /// Appends the boundary edges as elements, if `constraints` is `On` for the chosen homotopy.
+    /// Appends the boundary edges to the elements, if `constraints` is `On` and the homotopy of
+    /// `options` is not the one with bounded distortion.
     pub(super) fn with_boundary_edges(
         mut self,
         mesh: &CompatibleMesh,
@@ -163,8 +165,8 @@ mod tests {
         placer.placement().in_frame.clone()
     }
 
-    /// Returns the largest relative excess of the outline's total turning over the straight line
-    /// between its values at t = 0 and t = 1.
+    /// Returns the largest fraction by which the outline's total turning exceeds the linear
+    /// interpolation between its values at t = 0 and t = 1.
     fn overshoot(arap: &Arap) -> f64 {
         let outlines = arap.mesh().boundary_loops();
         let samples = (0..=16).map(|k| {

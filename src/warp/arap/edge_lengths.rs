@@ -5,8 +5,8 @@
 //! and half of their final length. Instead, the length at t = ½ is free and minimises the energy.
 //! Vertex positions and lengths are optimised alternately with the same matrix, like positions and
 //! rotations in Sorkine and Alexa (2007). At other times [`ForceAssembly`] corrects the length by a
-//! parabola in t that vanishes at both ends, so that the ends are exact and the reversed motion is
-//! the same.
+//! parabola in t that vanishes at t = 0 and t = 1, so that both designs are reproduced exactly and
+//! the reversed motion is the same.
 
 use super::evaluation_times::EvaluationTimes;
 use super::forces::ForceAssembly;
@@ -19,8 +19,8 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled};
 /// Number of times that positions and then lengths are optimised (heuristic).
 const ROUNDS: u32 = 5;
 
-/// Fits the lengths of all boundary edges at t = ½. Boundary edges are the elements that follow the
-/// bars of the mesh.
+/// Fits the lengths of all boundary edges at t = ½. In the list of elements, the boundary edges
+/// come after the bars of the mesh.
 pub(super) fn fit_halfway_lengths(
     stresses: &mut ForceAssembly,
     mesh: &CompatibleMesh,

@@ -1,9 +1,10 @@
 //! Vectorised right-hand sides of a frame: Σ (M(t) − M_linear(t)) W g, in the notation of the
 //! parent module.
 //!
-//! M_linear(t) = (1−t) M(0) + t M(1), so its sum at a vertex is interpolated between the sums for
-//! M(0) and M(1), which are precomputed. They are computed with the same operations as any other
-//! frame, so that the difference is exactly zero at both ends.
+//! M_linear(t) = (1−t) M(0) + t M(1). The sum Σ M_linear(t) W g at a vertex is therefore
+//! interpolated between Σ M(0) W g and Σ M(1) W g, which are precomputed. These two sums are
+//! computed with the same operations as Σ M(t) W g of any other frame, so that the right-hand sides
+//! are exactly zero at t = 0 and t = 1.
 //!
 //! Faces are stored and processed in blocks, so that the loop reads memory in order. Quantities
 //! that are cheap to compute are not stored, because frames of large meshes are limited by memory
@@ -40,15 +41,15 @@ pub(super) struct ForceAssembly {
     arch: Arch,
     faces: Arc<[[u32; 3]]>,
     blocks: Vec<FaceBlock>,
-    /// For each block, the logarithms of the larger and the smaller stretch; empty unless the
-    /// homotopy is exponential.
+    /// For each block, the logarithms of the larger and of the smaller eigenvalue of each face's
+    /// stretch; empty unless the homotopy is exponential.
     logs: Vec<[FaceLanes; 2]>,
     elements: Vec<ElementMap>,
     /// Length of each element at t = ½, relative to its linearly interpolated length.
     halfway_lengths: Vec<f64>,
     /// Computation of the maps with bounded distortion, if the homotopy requires it.
     bounded: Option<Arc<Bounded>>,
-    /// For each vertex, Σ M(0) W g and Σ M(1) W g.
+    /// For each vertex, its force Σ M(t) W g (in the notation of the module) at t = 0 and t = 1.
     ends: Vec<[DVec2; 2]>,
 }
 
@@ -57,7 +58,8 @@ pub(super) struct ForceAssembly {
 struct FaceBlock {
     /// Rotation angle of each face, in radians.
     angle: FaceLanes,
-    /// W g of the second and third corner, column by column.
+    /// For each face, the hat-function gradients of the second and third corner, multiplied by the
+    /// face's weight matrix; column by column.
     weighted: [FaceLanes; 4],
     /// For each face, the matrix B from which [`MapCoefficients`] builds M(t), column by column. B
     /// is the projection onto the larger axis of the stretch for the exponential homotopy, and the
@@ -114,8 +116,8 @@ impl MapCoefficients {
         }
     }
 
-    /// Returns M(t) (x, y)ᵀ. The array holds the matrix B of [`FaceBlock::middle`], column by
-    /// column.
+    /// Returns the product of the matrix M(t) and the vector (x, y). The array argument holds the
+    /// matrix B of [`FaceBlock::middle`], column by column.
     #[inline(always)]
     fn apply(self, [xx, yx, xy, yy]: [f64; 4], x: f64, y: f64) -> DVec2 {
         let stretched_x = self.one * x + self.middle * (xx * x + xy * y);
@@ -151,8 +153,8 @@ impl ForceAssembly {
             ends: Vec::new(),
         };
         let mut memory = stresses.memory();
-        // The sums at both ends are computed with the operations of a frame, so that at t = 0 and t
-        // = 1 they cancel exactly.
+        // The forces at t = 0 and t = 1 are computed with the operations of any other frame, so
+        // that the right-hand sides of these two frames are exactly zero.
         let [begin, end] = [0.0, 1.0].map(|t| {
             let mut forces = vec![DVec2::ZERO; mesh.source().len()];
             stresses.forces(EvaluationTimes::Uniform(t), &mut memory, &mut forces);
@@ -208,9 +210,10 @@ impl ForceAssembly {
         }
     }
 
-    /// Computes Σ M(t) W g of each vertex.
+    /// Computes the force Σ M(t) W g of each vertex, in the notation of the module.
     ///
-    /// It is zero for the linear homotopy, which has no deviation from the straight paths.
+    /// For the linear homotopy all forces are set to zero, because they would cancel in the
+    /// right-hand sides at every t.
     fn forces(&self, times: EvaluationTimes, memory: &mut Memory, forces: &mut [DVec2]) {
         forces.fill(DVec2::ZERO);
         match &self.bounded {
@@ -311,7 +314,8 @@ impl FaceBlock {
         }
     }
 
-    /// Returns M(t) W g of the second and third corner, column by column.
+    /// Returns, for each face, the products of M(t) and the weighted gradients of the second and
+    /// third corner, column by column.
     #[inline(always)]
     fn mapped(&self, pose: impl Fn(usize) -> MapCoefficients) -> [FaceLanes; 4] {
         let mut mapped = [[0.0; LANES]; 4];
@@ -369,7 +373,7 @@ impl ElementMap {
     /// Adds the element's forces at t. `halfway` is its length at t = ½, relative to the linearly
     /// interpolated length.
     fn add(&self, homotopy: Homotopy, t: f64, halfway: f64, forces: &mut [DVec2]) {
-        // The length correction is a parabola that vanishes at both ends.
+        // The length correction is a parabola in t that vanishes at t = 0 and t = 1.
         let ratio = 1.0 + (halfway - 1.0) * (4.0 * t * (1.0 - t));
         let ratio = ratio.clamp(*LENGTH_RATIOS.start(), *LENGTH_RATIOS.end());
         let pull = self.even_vector(homotopy, t) * (self.stiffness * ratio);

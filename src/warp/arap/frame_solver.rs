@@ -26,7 +26,7 @@ pub(super) struct FactoredArap {
     pub cholesky: Arc<Cholesky>,
     /// Ridge that the factorisation needed, or `None`.
     pub ridge: Option<Ridge>,
-    /// Right-hand sides of a frame.
+    /// Precomputed data for the right-hand sides of a frame.
     pub forces: ForceAssembly,
     pub translations: PartTranslations,
     pub maps: LocalMaps,
@@ -109,8 +109,8 @@ impl FrameSolver {
             let vertices = in_frame[run.clone()].iter_mut().zip(&place[run]);
             for ((&p, &q), (out, &unknown)) in ends.zip(vertices) {
                 let u = DVec2::new(dx[unknown as usize], dy[unknown as usize]);
-                // The deviation and shift are exactly 0 at both ends and are added last, which
-                // keeps the ends exact.
+                // The deviation and the shift are exactly 0 at t = 0 and t = 1. They are added
+                // last, so that the positions at these times are exact.
                 *out = (p * (1.0 - t) + q * t) + (u * weight + shift);
             }
         }

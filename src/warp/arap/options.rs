@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum FaceWeights {
-    /// Area, so that the result hardly depends on the triangulation.
+    /// The weight of a face is its area, so that the result hardly depends on the triangulation.
     #[default]
     Area,
     /// Equal weights, so that small faces count as much as large ones, as in "Design-Space

@@ -113,12 +113,12 @@ impl PartTranslations {
         }
     }
 
-    /// Returns the deviation of the design's centroid from its straight path; exactly 0 at both
-    /// ends.
+    /// Returns the deviation of the design's centroid from its straight path; exactly 0 at t = 0
+    /// and t = 1.
     ///
-    /// A rotation by θ about the pole moves the centroid along an arc with chord d. At t the
-    /// centroid has moved by R((t − 1) θ/2) d · sin(tθ/2) / sin(θ/2), where R(α) is the rotation by
-    /// α.
+    /// A rotation by θ about the pole moves the centroid along an arc whose chord is the vector d.
+    /// At t the centroid has moved by R((t − 1) θ/2) d · sin(tθ/2) / sin(θ/2), where R(α) is the
+    /// rotation by α.
     fn bend(&self, t: f64) -> DVec2 {
         let half = 0.5 * self.whole_angle;
         if !self.rotates_about_pole || half.sin().abs() < NO_POLE {
@@ -159,8 +159,8 @@ impl PartTranslations {
         self.centre(t) + path.offset_at_fraction(t, share, self.whole_angle)
     }
 
-    /// Returns the position in the source and the position in the target that the motion of the
-    /// design carries to `place` at t.
+    /// Returns the positions in source and target of a point that moves with the design and is at
+    /// `place` at t.
     pub(super) fn uncarried_ends(&self, place: DVec2, t: f64) -> [DVec2; 2] {
         let [from, to] = self.centroid;
         let offset = place - self.centre(t);
@@ -175,8 +175,8 @@ impl PartTranslations {
             .map(|run| (run.range.clone(), run.part))
     }
 
-    /// Writes, for each part, the translation to be added to the deviations of its vertices to
-    /// `shifts`.
+    /// Writes to `shifts`, for each part, the translation that must be added to the deviations of
+    /// its vertices.
     ///
     /// `deviation` holds all x and then all y in elimination order.
     pub(super) fn shifts(&self, times: EvaluationTimes, deviation: &[f64], shifts: &mut [DVec2]) {
@@ -190,7 +190,7 @@ impl PartTranslations {
         for (part, shift) in shifts.iter_mut().enumerate() {
             let t = times.of_part(part);
             match self.time_window(part) {
-                // The formula below would leave rounding at both ends.
+                // The formula below would leave rounding errors at t = 0 and t = 1.
                 Some(_) if t == 0.0 || t == 1.0 => *shift = DVec2::ZERO,
                 Some(window) => {
                     let ([from, to], share) = (self.centres[part], window.fraction_done(t));

@@ -10,13 +10,14 @@ use crate::geometry::DVec2;
 use crate::numerics::SymmetricMatrix;
 use crate::warp::homotopy::Homotopy;
 
-/// Factor of the constraint's energy term, relative to the vertex's diagonal entry of K (tolerance:
-/// large enough to dominate, small enough for an accurate factorisation).
+/// Factor of the energy term that keeps a vertex on its straight side, relative to the vertex's
+/// diagonal entry of K (tolerance: large enough to dominate, small enough for an accurate
+/// factorisation).
 const STIFFNESS: f64 = 1e4;
 
-/// A vertex is on a straight side if neither the sine of its turning angle nor the difference of
-/// its ratios s in the two designs exceeds this value (tolerance: coordinates in files have about
-/// seven digits).
+/// Maximum sine of the turning angle at a vertex inside a straight side. Also the maximum
+/// difference between the two designs in the ratio in which the vertex divides the segment between
+/// its neighbours (tolerance: coordinates in files have about seven digits).
 const STRAIGHT: f64 = 1e-6;
 
 /// Whether a mesh has the constraints of drawn outlines.

@@ -106,8 +106,8 @@ impl SplineLayer {
     /// Adds the requests of one feature to the sums of its control points.
     ///
     /// A control point with the basis value w gets the request φ = w z / Σ w², where z is the
-    /// feature's displacement. The sums grow by w² φ and w², times the feature's weight (eqs. 3 to
-    /// 5).
+    /// feature's displacement. The sums grow by w² φ and w², times the feature's weight (Lee,
+    /// Wolberg, Shin 1997, eqs. 3 to 5).
     fn add(&mut self, pull: &FeaturePull) {
         let Some(SplineStencil { first, basis }) = self.stencil(pull.at) else {
             return;

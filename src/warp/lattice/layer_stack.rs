@@ -95,8 +95,8 @@ struct LatticeFeature {
 }
 
 impl LayerStack {
-    /// Builds the layers. Each feature `(position, displacement)` should be moved by its
-    /// displacement, times its weight.
+    /// Builds layers that approximately move each feature `(position, displacement)` by its
+    /// displacement times a weight. The weight is 1 in the frame and falls to 0 far outside it.
     pub(super) fn build(
         &mut self,
         ground: &LatticeDomain,
@@ -134,8 +134,8 @@ impl LayerStack {
         let spacing = ground.side / cells;
         let layers = match (self.is_composed, level) {
             (false, _) => 1,
-            // Twice the number of cells suffices, because each layer moves a point by about half a
-            // spacing.
+            // About two layers per cell suffice to move a point across the frame, because each
+            // layer moves it by up to about half a spacing.
             (true, 0) => MAX_LAYERS[0].min(2 * ground.options.coarsest + 2),
             (true, _) if level < ground.options.levels => MAX_LAYERS[1],
             (true, _) => MAX_LAYERS[2],
@@ -183,7 +183,8 @@ impl LayerStack {
         distances.fold(0.0, f64::max)
     }
 
-    /// Returns the distance of each feature from its position in the design.
+    /// Returns, for each feature, the distance of its image under the map from its position in the
+    /// design.
     pub(super) fn residuals(&self) -> impl Iterator<Item = f64> + '_ {
         self.features.iter().map(|f| f.now.distance(f.expected))
     }

@@ -1,10 +1,12 @@
-//! Vectorised evaluation of the mean displacement Σ w D / Σ w over all lines, at many points.
+//! Vectorised evaluation of the mean displacement Σ w D / Σ w at many points, where the sums run
+//! over all lines, D is the displacement that a line gives to a point, and w is the line's weight.
 //!
 //! The vector width is chosen at run time; results for different widths agree up to the last
 //! digits.
 //!
-//! Guaranteed: weights are positive and all intermediate results finite if a is between [`MIN_A`]
-//! and [`MAX_A`]; points beyond [`MAX_SCALED_COORDINATE`] are clamped to it.
+//! Guaranteed: weights are positive and all intermediate results finite if the constant a of Beier
+//! and Neely is between [`MIN_A`] and [`MAX_A`]; coordinates beyond ±[`MAX_SCALED_COORDINATE`] are
+//! clamped.
 
 use super::line::{AffineFunction, FieldLine};
 use super::scaled_plane::ScaledPlane;
@@ -23,20 +25,20 @@ type VectorGroup<S> = [<S as Simd>::f64s; GROUP];
 /// cache).
 const BLOCK: usize = 128;
 
-/// Number of groups of points for which the lines are traversed together (derived: one block if a
-/// vector holds four numbers).
+/// Number of groups of points whose sums are computed in one pass over the lines (derived: these
+/// groups make up one block if a vector holds four numbers).
 const CELLS: usize = BLOCK / GROUP / 4;
 
 /// Largest absolute value of a scaled point coordinate; larger values are clamped (derived: at this
 /// distance the weight 1 / distᵇ is still a normal number for the largest exponent b, which is 8).
 const MAX_SCALED_COORDINATE: f64 = 1e36;
 
-/// Lower bound of the constant a in scaled units (tolerance: far below the resolution of the
-/// coordinates).
+/// Lower bound of Beier and Neely's constant a, in scaled units (tolerance: far below the
+/// resolution of the coordinates).
 pub(super) const MIN_A: f64 = 1e-30;
 
-/// Upper bound of the constant a in scaled units (tolerance: already so large that distances are
-/// negligible in a + dist).
+/// Upper bound of Beier and Neely's constant a, in scaled units (tolerance: already so large that
+/// the distance of a point from a line is negligible in a + distance).
 pub(super) const MAX_A: f64 = 1e30;
 
 /// Lower bound of the divisor Σ w, which is zero if there are no lines (derived: smaller than the
@@ -46,7 +48,8 @@ const MIN_WEIGHT: f64 = 1e-300;
 /// One number per point of a block.
 type PlaceLanes = [f64; BLOCK];
 
-/// Decrease of a line's weight with distance: strength / qᵇ with q = a + dist.
+/// Decrease of a line's weight with the distance of a point from the line: strength / qᵇ, where
+/// q = a + distance, and a and b are the constants of Beier and Neely.
 ///
 /// Two vectors of points are processed together, and one division gives both weights:
 /// 1/q₁ = q₂ / (q₁ q₂) and 1/q₂ = q₁ / (q₁ q₂).
@@ -109,13 +112,14 @@ pub(super) struct ScaledLines<'a> {
     pub(super) lines: &'a [FieldLine],
     /// Transformation from plane coordinates to the scaled coordinates of `lines`.
     pub(super) plane: ScaledPlane,
-    /// The paper's constant a in scaled units.
+    /// Constant a of Beier and Neely, in scaled units.
     pub(super) a: f64,
-    /// The paper's exponent b.
+    /// Exponent b of Beier and Neely.
     pub(super) b: f64,
 }
 
-/// Writes each point displaced by Σ w D / Σ w, for both designs.
+/// For each design, writes each point displaced by the weighted mean of the displacements that the
+/// lines give to it.
 ///
 /// Without lines the points stay where they are.
 pub(super) fn look_up(
@@ -190,7 +194,7 @@ impl PlaceBlock {
         block
     }
 
-    /// Returns group `at` of the points in scaled coordinates, with all sums zero.
+    /// Returns the group of points with index `at`, in scaled coordinates and with all sums zero.
     #[inline(always)]
     fn cell<S: Simd>(&self, simd: S, at: usize, plane: &ScaledPlane) -> LaneCell<S> {
         let [x, y] = self.places.each_ref().map(|row| groups::<S>(row)[at]);
@@ -201,7 +205,8 @@ impl PlaceBlock {
         }
     }
 
-    /// Stores the displacements Σ w D / Σ w of group `at`, multiplied by `unit`.
+    /// Divides the sums of the group with index `at` by its weights and stores the resulting mean
+    /// displacements, multiplied by `unit` to convert them to plane units.
     #[inline(always)]
     fn take<S: Simd>(&mut self, simd: S, at: usize, cell: &LaneCell<S>, unit: f64) {
         // Without lines all sums are 0, and 0 / 10⁻³⁰⁰ gives zero displacement.
@@ -268,11 +273,12 @@ fn sum<S: Simd>(
 struct LaneCell<S: Simd> {
     x: VectorGroup<S>,
     y: VectorGroup<S>,
-    /// q = a + dist for the line that is added next.
+    /// For each point: q = a + its distance from the line that is added next.
     q: VectorGroup<S>,
-    /// Sum of the weights w so far.
+    /// For each point: the sum of the weights of the lines added so far.
     weight: VectorGroup<S>,
-    /// Sum of w D so far, indexed by design and axis.
+    /// For each point: the sum of weight times displacement over the lines added so far, indexed by
+    /// design and axis.
     mapped: [[VectorGroup<S>; 2]; 2],
 }
 
@@ -289,7 +295,7 @@ impl<S: Simd> LaneCell<S> {
         }
     }
 
-    /// Returns q = a + dist of each point for a line.
+    /// Returns, for each point, q = a + its distance from `line`.
     #[inline(always)]
     fn reach(&self, simd: S, a: f64, line: &FieldLine) -> VectorGroup<S> {
         let all = |value| simd.splat_f64s(value);
@@ -307,7 +313,8 @@ impl<S: Simd> LaneCell<S> {
         q
     }
 
-    /// Adds w and w D of a line; `self.q` must already hold its q.
+    /// Adds the weight of a line, and its displacement times this weight, to the sums. `self.q`
+    /// must already hold the result of `reach` for the line.
     #[inline(always)]
     fn add(&mut self, simd: S, falloff: impl WeightFalloff, line: &FieldLine) {
         let w = falloff.weights(simd, simd.splat_f64s(line.strength), self.q);

@@ -14,8 +14,8 @@ use crate::geometry::{DMat2, DVec2};
 /// Start and end point of a line.
 pub(super) type LineEnds = [DVec2; 2];
 
-/// Ratio of the shorter to the longer length of a line, in frame and design, below which the line
-/// gradually turns into a point (heuristic).
+/// A line has one length in the frame and another in a design. If the ratio of the shorter to the
+/// longer is below this value, the line gradually turns into a point (heuristic).
 const POINT_LENGTH_RATIO: f64 = 1e-3;
 
 /// Scaled length below which a line is a point (tolerance: squares of larger lengths are normal
@@ -46,7 +46,8 @@ pub(super) struct FieldLine {
     /// Factor of the weight: (length / greatest length of all lines)^(b p). Holds the length until
     /// [`super::LinesAtTime`] replaces it.
     pub(super) strength: f64,
-    /// For each design, the x and y component of the displacement D.
+    /// For each design, the x and y components of the displacement D, which leads from a frame
+    /// point to the design point that the line assigns to it.
     pub(super) carries: [[AffineFunction; 2]; 2],
 }
 

@@ -12,8 +12,8 @@ use super::options::LineInterpolation;
 use crate::geometry::DVec2;
 use std::f64::consts::TAU;
 
-/// Sine below which an angle near ±π counts as π (tolerance: antiparallel lines transformed by a
-/// similarity are off by about 1e-15).
+/// An angle near ±π counts as π if its sine is at most this value, apart from the sign (tolerance:
+/// antiparallel lines transformed by a similarity are off by about 1e-15).
 const HALF_TURN_TOLERANCE: f64 = 1e-9;
 
 /// Halfway through a rotation by π, a line is perpendicular to its start. Of the two perpendicular
@@ -89,7 +89,8 @@ fn polar([from, to]: LineEnds) -> (Option<DVec2>, f64) {
     (direction.filter(|d| d.is_finite()), length)
 }
 
-/// Returns the smaller rotation from one direction to another, in radians.
+/// Of the two rotations from the direction `first` to the direction `last`, returns the one with
+/// the smaller angle, in radians, positive if counter-clockwise.
 fn smaller_angle(first: DVec2, last: DVec2) -> f64 {
     let (sine, cosine) = (first.perp_dot(last), first.dot(last));
     let turn = sine.atan2(cosine);

@@ -1,9 +1,9 @@
 //! Options of the line warp and their validation.
 //!
-//! Weight constants after Beier, Neely (1992), §3.2. With a near 0, points on a line follow the
-//! line exactly; a larger a gives a smoother map. With a large b, each point follows its nearest
-//! line. With p = 0 all lines weigh the same, with p = 1 long lines outweigh short ones. The paper
-//! recommends b in [0.5, 2] and p in [0, 1].
+//! The weights of the lines depend on the constants a, b and p of Beier, Neely (1992), §3.2. With a
+//! near 0, points on a line follow the line exactly; a larger a gives a smoother map. With a large
+//! b, each point follows its nearest line. With p = 0 all lines weigh the same, with p = 1 long
+//! lines outweigh short ones. The paper recommends b in [0.5, 2] and p in [0, 1].
 
 use crate::settings::named;
 use crate::warp::features::FeatureError;
@@ -41,12 +41,12 @@ named! { LineInterpolation {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LineOptions {
-    /// Constant a > 0 as a fraction of the frame's diameter. Points closer to a line than this
-    /// mainly follow that line.
+    /// Constant a > 0 of Beier and Neely, as a fraction of the frame's diameter. Points closer to a
+    /// line than this mainly follow that line.
     pub smoothness: f64,
-    /// Exponent b in (0, 8] with which the weight falls off with distance.
+    /// Exponent b in (0, 8] with which the weight of a line falls off with distance.
     pub falloff: f64,
-    /// Exponent p ≥ 0 of the line's length in the weight; 0 ignores the length.
+    /// Exponent p ≥ 0 of a line's length in its weight; 0 ignores the length.
     pub length_exponent: f64,
     /// Interpolation of a line between its positions in the designs.
     pub between: LineInterpolation,

@@ -183,7 +183,8 @@ fn a_single_pin_translates_the_plane() -> LinesTestResult {
 
 #[test]
 fn a_pin_weighs_as_much_as_a_line_of_a_tenth_of_the_diameter() -> LinesTestResult {
-    // Both features are at distance 1, and b p = 1, so the weights are the lengths.
+    // The line and the pin are both at distance 1 from the origin, and b p = 1, so their weights
+    // are in the ratio of their lengths, 4 to 1.
     let far = DVec2::X;
     let standing = line([-far, DVec2::new(-5.0, 0.0), -far, DVec2::new(-5.0, 0.0)]);
     let options = LineOptions::default();
@@ -214,7 +215,7 @@ fn a_half_turn_has_a_fixed_direction_and_keeps_its_length() {
 
 #[test]
 fn a_line_that_shrinks_to_a_point_causes_no_jump() -> LinesTestResult {
-    // The ends of the rotating line meet halfway; two other lines fix the plane.
+    // Halfway, the ends of the rotating line meet; two other lines still determine the map.
     let turning = line([-DVec2::X, DVec2::X, DVec2::X, -DVec2::X]);
     let other = |y: f64| {
         let [a, b] = [DVec2::new(-2.0, y), DVec2::new(2.0, y)];

@@ -41,7 +41,7 @@ pub struct PathOptions {
 pub struct RingPair {
     /// Vertices in the source, in order.
     pub source: Vec<DVec2>,
-    /// The same number of vertices in the target.
+    /// Vertices in the target, as many as in the source and in the same order.
     pub target: Vec<DVec2>,
 }
 

@@ -46,7 +46,7 @@ impl IntrinsicPart {
         })
     }
 
-    /// Returns the total number of vertices.
+    /// Returns the number of vertices of all rings of the part.
     pub(super) fn len(&self) -> usize {
         let holes = self.holes.iter().map(|hole| hole.ring.len());
         self.outer.len() + holes.sum::<usize>()

@@ -15,9 +15,9 @@ use crate::geometry::{DMat2, DVec2};
 
 /// Minimum of an edge's weight w, as a fraction of its mean length.
 ///
-/// The paper uses 1e-4 of the largest length change. With so small a value, the end edge of a
-/// bending arm, which is equally long in both designs, could hardly change; the sides of the arm
-/// would shrink to nothing in order to close a gap across it (heuristic).
+/// Sederberg et al. (1993) use 1e-4 of the largest length change. With so small a value, the end
+/// edge of a bending arm, which is equally long in both designs, could hardly change; the sides of
+/// the arm would shrink to nothing in order to close a gap across it (heuristic).
 const MIN_RELATIVE_CHANGE: f64 = 0.1;
 
 /// Regularisation of the 2×2 system, as a fraction of its trace (tolerance: parallel edges make
@@ -33,13 +33,14 @@ pub(super) struct IntrinsicRing {
 /// An edge and its start vertex.
 #[derive(Clone, Copy, Debug)]
 struct IntrinsicEdge {
-    /// Length in source and target.
+    /// Length of the edge in source and target.
     lengths: [f64; 2],
-    /// Direction in the source, in radians.
+    /// Direction of the edge in the source, in radians.
     angle: f64,
-    /// Rotation from source to target, in radians.
+    /// Rotation of the edge from source to target, in radians.
     turn: f64,
-    /// Compliance of the length: w² (see the module) relative to the largest w² of the ring.
+    /// Compliance of the edge's length: the square of the weight w (see the module), relative to
+    /// the largest w² of the ring.
     freedom: f64,
     /// Mass of the start vertex as a fraction of the ring's mass: half the length of the two
     /// adjacent edges, averaged over both designs.
@@ -111,7 +112,7 @@ impl IntrinsicRing {
         self.edges.iter_mut().for_each(|edge| edge.turn += added);
     }
 
-    /// Returns the rotation at a vertex, the mean of its two edges, in radians.
+    /// Returns the rotation at a vertex in radians: the mean rotation of its two edges.
     pub(super) fn turn_at(&self, vertex: usize) -> f64 {
         let before = vertex.checked_sub(1).unwrap_or(self.len() - 1);
         self.edges[before].turn.midpoint(self.edges[vertex].turn)
@@ -147,7 +148,8 @@ impl IntrinsicRing {
 }
 
 impl IntrinsicEdge {
-    /// Returns the linearly interpolated length, before the gap is closed.
+    /// Returns the edge's length at t before the gap of the ring is closed: the linear
+    /// interpolation between its lengths in the designs.
     fn length(&self, t: f64) -> f64 {
         self.lengths[0] * (1.0 - t) + self.lengths[1] * t
     }
@@ -185,7 +187,8 @@ fn shares(lengths: &[[f64; 2]]) -> Vec<f64> {
     lengths.iter().map(mean_share).collect()
 }
 
-/// Returns the compliance w² of each edge, relative to the largest one of the ring.
+/// Returns the compliance of each edge, the square of its weight w (see the module), relative to
+/// the largest compliance of the ring.
 ///
 /// An edge that has no length in either design keeps length zero.
 fn freedoms(lengths: &[[f64; 2]]) -> Vec<f64> {

@@ -28,7 +28,8 @@ pub(super) const MAX_SLOPE: f64 = 20.0;
 pub(super) struct ClosePair {
     /// Indices of the two centres, in increasing order.
     pub(super) pair: [usize; 2],
-    /// Factor (K d / D)² < 1 by which the difference between the two displacements is multiplied.
+    /// Factor below 1 by which the difference between the two displacements is multiplied: the
+    /// square of (maximum slope / required slope), in the design in which this is smaller.
     pub(super) shrink_factor: f64,
     /// Coupling μ of the coefficients of the two centres; 0 until the linear system is assembled.
     pub(super) coupling: f64,
@@ -43,7 +44,7 @@ pub(super) struct CentreData {
     pub(super) values: Vec<[DVec2; 2]>,
     /// Pairs that exceed the slope limit, in lexicographic order.
     pub(super) close_pairs: Vec<ClosePair>,
-    /// Displacements before the slopes are limited.
+    /// Displacements of each centre to the source and to the target before slopes are limited.
     previous_values: Vec<[DVec2; 2]>,
     /// Number of features merged into each centre.
     counts: Vec<f64>,

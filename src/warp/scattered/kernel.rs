@@ -19,14 +19,14 @@ type SumLanes = [f64; LANES];
 /// Radial function φ, evaluated from the squared distance r² and the centre's squared radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum RadialKernel {
-    /// r² log r.
+    /// φ = r² log r, where r is the distance from the centre.
     ThinPlate,
-    /// exp(−rate r²).
+    /// φ = exp(−rate r²), where r is the distance from the centre.
     Gaussian {
         /// Reciprocal of the squared radius.
         rate: f64,
     },
-    /// (r² + rᵢ²)^exponent.
+    /// φ = (r² + rᵢ²)^exponent, where r is the distance from centre i, whose radius is rᵢ.
     Multiquadric {
         /// Exponent μ.
         exponent: f64,
@@ -50,16 +50,16 @@ trait RadialFunction: Copy {
     fn of(self, r2: f64, own: f64) -> f64;
 }
 
-/// r² log r.
+/// φ = r² log r, where r is the distance from the centre.
 #[derive(Clone, Copy)]
 struct ThinPlate;
-/// exp(−rate r²).
+/// φ = exp(−rate r²), where r is the distance from the centre; holds the rate.
 #[derive(Clone, Copy)]
 struct Gaussian(f64);
-/// √(r² + rᵢ²).
+/// φ = √(r² + rᵢ²), where r is the distance from centre i and rᵢ the radius of centre i.
 #[derive(Clone, Copy)]
 struct RootKernel;
-/// (r² + rᵢ²)^μ.
+/// φ = (r² + rᵢ²)^μ, where r is the distance from centre i and rᵢ the radius of centre i; holds μ.
 #[derive(Clone, Copy)]
 struct PowerKernel(f64);
 
@@ -127,7 +127,8 @@ pub(super) struct KernelCentres {
     pub(super) own: Vec<f64>,
 }
 
-/// Matrix column: `sign` · φ of one centre, evaluated at all centres.
+/// Column of the system's matrix: the radial function of centre `of`, evaluated at all centres and
+/// multiplied by `sign`.
 pub(super) struct KernelColumn<'a> {
     pub(super) centres: &'a KernelCentres,
     pub(super) of: usize,
@@ -157,10 +158,10 @@ pub(super) struct RadialSum {
     /// Scale of the normalised coordinates.
     pub(super) scale: f64,
     pub(super) centres: KernelCentres,
-    /// Coefficients of each centre: for each design, the vector [x, y].
+    /// For each centre, the coefficient of its radial function: one vector [x, y] per design.
     pub(super) coefficients: Vec<[[f64; 2]; 2]>,
-    /// For each design: the constant term, the coefficient of x and the coefficient of y, each as a
-    /// vector [x, y].
+    /// For each design, the affine function: the constant term, the coefficient of x and the
+    /// coefficient of y, each as a vector [x, y].
     pub(super) affine: [[[f64; 2]; 3]; 2],
 }
 
@@ -211,7 +212,7 @@ impl RadialSum {
     }
 }
 
-/// Evaluation of a sum at all points.
+/// Evaluation of a [`RadialSum`] at a list of points, for both designs.
 struct SumEvaluation<'a>(&'a RadialSum, &'a [DVec2], [&'a mut [DVec2]; 2]);
 
 impl KernelWork for SumEvaluation<'_> {

@@ -4,7 +4,7 @@ use crate::settings::named;
 use crate::warp::features::FeatureError;
 use serde::{Deserialize, Serialize};
 
-/// Radial basis function φ.
+/// Radial basis function φ(r), where r is the distance of a point from a centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum RadialBasis {

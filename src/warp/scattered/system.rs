@@ -1,7 +1,8 @@
 //! Linear system for the coefficients of the radial functions and the affine part.
 //!
-//! In normalised coordinates the best-fit similarity is subtracted first. The remaining
-//! displacements r are interpolated (Wahba, "Spline Models for Observational Data", 1990, §2.4):
+//! First, in normalised coordinates, the best-fit similarity is subtracted from the displacements
+//! of the centres. The remaining displacements r are interpolated (Wahba, "Spline Models for
+//! Observational Data", 1990, §2.4):
 //!
 //! ⎡ ±Φ + λI   P ⎤ ⎡c⎤   ⎡r⎤
 //! ⎣ Pᵀ       −E ⎦ ⎣a⎦ = ⎣0⎦
@@ -16,10 +17,11 @@
 //! on a line and their displacements require a steep slope across it, E grows and limits that slope
 //! continuously.
 //!
-//! For each pair of close centres (`centres`), a coupling μ is added to both diagonal entries of Φ
-//! and subtracted from the entries between them. A large μ forces equal coefficients, as if the
-//! two centres were one. If the matrix is numerically singular, as for Gaussians much wider than
-//! the distances of the centres, a ridge is added to the diagonal.
+//! For each pair of close centres (`centres`), a coupling μ is added to the two diagonal entries of
+//! ±Φ for these centres and subtracted from the two entries that combine them. A large μ forces
+//! equal coefficients, as if the two centres were one. If the matrix is numerically singular, as
+//! for Gaussians much wider than the distances between the centres, a ridge is added to the
+//! diagonal.
 
 use super::centres::{CentreData, MAX_SLOPE};
 use super::kernel::{KernelCentres, KernelColumn, KernelDispatch, RadialKernel, RadialSum};
@@ -39,8 +41,8 @@ const MIN_SLACK: f64 = 1e-13;
 /// E ≤ 1 / (1 + 2 log 2)).
 const MAX_SLACK: f64 = 0.4;
 
-/// Ridges tried on the diagonal in turn (tolerance: from rounding to the largest acceptable
-/// error).
+/// Numbers of which one is added to the diagonal of ±Φ: the smallest with which the system can be
+/// solved (tolerance: from the size of rounding errors to the largest acceptable error).
 const RIDGES: [f64; 7] = [0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4];
 
 /// Residual of the solved system, relative to the largest displacement, above which the next larger
@@ -56,7 +58,7 @@ pub(super) struct RadialSolver {
     unit: f64,
     places: CentreData,
     system: RidgedSystem,
-    /// Most recent solution.
+    /// Result of the most recent call of [`Self::solve`].
     pub(super) sum: RadialSum,
 }
 
@@ -86,8 +88,8 @@ impl RadialSolver {
         }
     }
 
-    /// Computes `sum` for the given features: position and displacements to source and target, all
-    /// finite. Cannot fail.
+    /// Computes `sum` for the given features. Each feature has a position in the frame and the
+    /// displacements to its positions in source and target, all finite. Cannot fail.
     pub(super) fn solve(&mut self, features: impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone) {
         self.places.merge(features, self.unit);
         self.places.limit_slopes();
@@ -103,7 +105,7 @@ impl RadialSolver {
         if remainders.any(|r| *r != DVec2::ZERO) {
             self.assemble();
             self.system.set_right_hand_sides(&self.places.values);
-            // If no ridge helps, the similarity alone remains.
+            // If the system cannot be solved with any ridge, `sum` is the similarity alone.
             if self.system.solve(n) {
                 self.store_solution();
             }
@@ -210,8 +212,8 @@ impl RadialSolver {
         }
     }
 
-    /// Adds the coupling μ of close pairs: 1 / `shrink_factor` − 1, times the energy of two
-    /// opposite coefficients.
+    /// Adds the coupling μ of each close pair to the matrix. μ is 1 / `shrink_factor` − 1,
+    /// multiplied by the energy of the coefficients 1/√2 and −1/√2 at the two centres.
     fn couple_close_pairs(&mut self) {
         let size = self.places.positions.len() + 3;
         for near in &mut self.places.close_pairs {
@@ -256,7 +258,7 @@ struct RidgedSystem {
     matrix: Vec<f64>,
     /// Four right-hand sides one after the other: x and y for each design.
     rhs: Vec<f64>,
-    /// Four solutions in the same layout.
+    /// Four solutions, in the layout of `rhs`.
     solution: Vec<f64>,
     /// Memory for the residual of one right-hand side.
     residual: Vec<f64>,

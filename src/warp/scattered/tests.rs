@@ -85,7 +85,7 @@ fn values_equal_those_of_scipy() -> ScatteredTestResult {
         (RadialBasis::Gaussian, 0.0),
         (RadialBasis::Gaussian, 0.1),
     ];
-    // The unit only rescales the options that are relative to it.
+    // The frame's diameter, `unit`, has no effect if the options relative to it are rescaled.
     for unit in [1.0, 2.5] {
         for (column, (basis, smoothing)) in kinds.into_iter().enumerate() {
             let is_plate = basis == RadialBasis::ThinPlate;

@@ -57,8 +57,9 @@ pub fn tooltip_left(response: &Response, left: f32, tip: &str) {
     });
 }
 
-/// Shows the tooltip of a control below it in the upper half of the window, and above it in the
-/// lower half, where it does not cover other controls.
+/// Shows the tooltip of a control below the control in the upper half of the window, and above it
+/// in the lower half. So the tooltip of a control in a bar at the upper or lower edge does not
+/// cover the other controls of the bar.
 pub fn with_tooltip(response: Response, tip: &str) -> Response {
     let is_low = response.rect.center().y > response.ctx.content_rect().center().y;
     let align = if is_low {

@@ -164,8 +164,8 @@ fn has_left(state: &UiState, pane: &DesignPane, response: &Response) -> bool {
 
 fn zoom(ui: &Ui, pane: &DesignPane, from_middle: egui::Vec2, send: &mut impl FnMut(EditorAction)) {
     if let Some(factor) = zoom_factor(ui) {
-        // The position is relative to the centre of the rectangle into which the design is fitted,
-        // which is not the centre of the pane.
+        // `at` is relative to the centre of the rectangle into which the design is fitted, whereas
+        // `from_middle` is relative to the centre of the pane.
         let at = from_middle - pane.content_offset();
         send(EditorAction::Zoom {
             pane: EditorPane::Design(pane.side),

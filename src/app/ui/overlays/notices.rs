@@ -35,7 +35,7 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
 }
 
 /// Returns whether the notice reports that a transition was not built because the build would take
-/// too long.
+/// too long or too much memory.
 fn exceeds_limits(state: &UiState, notice: &Notice) -> bool {
     let problem = state.session.problem();
     notice.kind == NoticeKind::Problem(NoticeTopic::Transition)

@@ -1,5 +1,6 @@
 //! Export settings, which replace the inspector's sections: preset, size, range, file type and
-//! background of films, and size and background of images. Also the estimated cost of an export.
+//! background of films, and size and background of images. Below them, the estimated cost of an
+//! export is shown.
 
 use bevy_egui::egui::{Button, ComboBox, Frame, Key, Margin, Panel, Response, TextEdit, Ui, vec2};
 
@@ -314,7 +315,8 @@ fn summary(ui: &mut Ui, state: &UiState) {
         .on_hover_text("Estimated from a few exported frames");
 }
 
-/// Formats an estimated file size in bytes, with only as many digits as the estimate supports.
+/// Formats an estimated file size: in MB from a million bytes on, otherwise in kB. Numbers below 10
+/// get one decimal, because the estimate supports no more digits.
 fn size_of(bytes: f64) -> String {
     let (number, unit) = if bytes >= 1e6 {
         (bytes / 1e6, "MB")

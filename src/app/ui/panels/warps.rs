@@ -8,7 +8,7 @@ use crate::warp::{
 };
 
 /// Maximum number of cells of the coarsest lattice along the longer side of the frame (resource
-/// limit: with [`MAX_LEVELS`], the finest of the chosen lattices has 1,024 cells there).
+/// limit: with [`MAX_LEVELS`] lattices, the finest one has 1,024 cells along this side).
 const MAX_CELLS: u32 = 16;
 
 /// Maximum number of lattices, each twice as fine as the one before (resource limit: see

@@ -1,5 +1,5 @@
-//! The part of the window in which the stage is visible: handles panning and zooming, and shows a
-//! hint while the stage is empty. Also colours that are readable on the stage's background.
+//! The part of the window in which the stage is visible: handles panning and zooming, shows a hint
+//! while the stage is empty, and provides colours that are readable on the stage's background.
 
 use bevy::prelude::Vec2;
 use bevy_egui::egui::{Align2, Color32, FontId, Rect, Sense, Ui};

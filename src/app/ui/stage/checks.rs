@@ -1,5 +1,5 @@
-//! Results of the automatic check of the transition: a strip below the stage that lists findings
-//! (defects such as folds, with cause and remedy), fixes and notes, and marks on the stage at the
+//! Results of the automatic check of the transition. A strip below the stage lists findings
+//! (defects such as folds, with cause and remedy), fixes and notes. Marks on the stage show the
 //! places of the findings.
 
 use bevy_egui::egui::{self, Label, Panel, Rect, RichText, Sense, Ui, vec2};
@@ -17,8 +17,8 @@ use crate::measure::{Finding, Verdict};
 /// Height of one line of the strip, in points.
 const ROW_HEIGHT: f32 = 24.0;
 
-/// Maximum difference between the current t and the t of a finding at which the finding is marked
-/// on the stage (tolerance: more than 1/64, the step of t in which the film is measured).
+/// Maximum difference between the current t and the t of a finding whose place is marked on the
+/// stage (tolerance: slightly more than 1/64, the step between two samples of the film).
 const NEAR_T: f64 = 0.02;
 
 /// Draws the strip with the results of the check below the stage, so that it does not cover the

@@ -35,8 +35,8 @@ impl<'a> ThumbnailDrag<'a> {
     /// in points, which is 0 unless it is being dragged.
     pub fn interact(&mut self, ui: &Ui, t: f64, rect: Rect, intents: &mut Intents) -> f32 {
         let k = t.round();
-        // Thumbnails between designs cannot be dragged, nor can the first design at the end of a
-        // closed loop.
+        // Thumbnails between designs cannot be dragged. Neither can the last thumbnail of a closed
+        // loop, which repeats the first design.
         if (t - k).abs() > 1e-9 || k < 0.0 || k as usize >= self.project.designs.len() {
             return 0.0;
         }

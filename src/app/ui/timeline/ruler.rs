@@ -6,8 +6,8 @@ use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::ui_state::UiState;
 use crate::transition::TransitionStop;
 
-/// Range of t that the track shows beyond each end of the film by default, as a fraction of the
-/// film's range of t.
+/// Range of t that the track shows by default before the first design and after the last one, as a
+/// fraction of the range from the first to the last design.
 const DEFAULT_MARGIN: f64 = 0.25;
 
 /// Linear mapping between t and the x coordinate in the window, in points.
@@ -34,10 +34,10 @@ impl TimelineRuler {
             .iter()
             .map(|stop| stop.t)
             .chain([timing.from, timing.to]);
-        // The current t may lie far outside the film, and must be visible there too.
+        // The current t may lie far outside the film; the track must show it there, too.
         let places = places.chain([state.playback.t()]);
-        // The margin is proportional to the film, so its width does not depend on the number of
-        // segments.
+        // The margin in t is proportional to the number of segments, so that its width on screen
+        // does not depend on this number.
         let end = state.session.segment_count() as f64;
         let (mut from, mut to) = (-DEFAULT_MARGIN * end, (1.0 + DEFAULT_MARGIN) * end);
         for t in places {

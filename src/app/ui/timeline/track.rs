@@ -1,5 +1,5 @@
 //! Track of the timeline: t from left to right, with stops and their menus, the playhead, and the
-//! extrapolated ranges beyond both ends of the film.
+//! extrapolated ranges before the first design and after the last one.
 
 use bevy_egui::egui::text::{LayoutJob, TextWrapping};
 use bevy_egui::egui::{
@@ -163,7 +163,7 @@ fn designs(ui: &Ui, ruler: TimelineRuler, names: &[String]) {
     let palette = ThemePalette::of(ui);
     let segment_room = ruler.x(1.0) - ruler.x(0.0) - 2.0 * GRID;
     // The first and the last name must not cover the word “extrapolation”, which is centred in the
-    // ranges beyond the ends.
+    // range before the first design and in the range after the last one.
     let margin_room = ruler.x(0.0) - ruler.x(ruler.from);
     let end_room = margin_room - EXTRAPOLATION_WIDTH - 2.0 * GRID;
     for (k, name) in names.iter().enumerate() {

@@ -78,7 +78,8 @@ fn a_hole_that_closes_to_a_point() {
     assert_all_ways(&p, &q);
 }
 
-/// Letter B, a piece with two holes: `waist` is the x coordinate of its waist, `lean` shears it.
+/// Letter B, a piece with two holes. `waist` is the x coordinate of the notch between its two bows;
+/// `lean` is the factor of a shear along x.
 fn b(waist: f64, lean: f64) -> TestPiece {
     let outer = [
         (0.0, 0.0),
