@@ -1,18 +1,19 @@
-//! Measurements behind `morphospace check`: reports of one transition, of a table of pairs, and of
-//! a design space.
+//! Reports of `morphospace check`: of one transition, of a table of pairs, and of a design space.
 //!
-//! Prints nothing and has no flags except those that select what is measured. Lengths and areas are
-//! in design units, angles in degrees (those of causes in radians), times in seconds. Infinite
-//! numbers, such as the distortion of a folded face, are `null` in JSON.
+//! The module measures, formats the results as text, JSON or CSV, and writes the report on a table
+//! of pairs. It prints nothing. Lengths and areas are in design units, angles in degrees (in
+//! the causes of defects: in radians), times in seconds. Infinite numbers, such as the distortion
+//! of a folded face, are `null` in JSON.
 //!
-//! - `clock`: time taken by each stage of building
+//! - `clock`: measures the time of each stage of building
 //! - `report`: all measures of one transition
-//! - `text`, `number`: the report as text; `space`: the report of a design space
-//! - `columns`: the report as a row of a table, and the description of each column
-//! - `table`: the table of pairs given as input
-//! - `rows`: the rows of the output, saved while the work goes on
+//! - `text`, `number`: the report on one transition as text
+//! - `space`: the report on a design space
+//! - `table`: reads the table of pairs
 //! - `pairs`: measures the pairs of a table on all cores
-//! - `histogram`, `summary`: summary of all pairs
+//! - `columns`: the columns of the report on a table, one for each measure
+//! - `rows`: the rows of that report, saved while pairs are being measured
+//! - `histogram`, `summary`: the summary of all pairs
 
 mod clock;
 mod columns;

@@ -1,29 +1,33 @@
-//! A film that keeps out of its own way, at every t.
+//! Avoids collisions in a motion that could not be proved free of folds and crossings.
 //!
-//! Rigid parts fold where their neighbours want something else, and outlines go through
-//! each other where nothing tells them not to. Each film is proved
-//! ([`crate::recording::proof`]); one that cannot be is guarded. Where it is what comes or goes
-//! that is met, who gives all of it its place is told when ([`FailedProof::births`]); and
-//! what still is comes later, or goes earlier. Where that is not enough, the film is
-//! walked through, and what would meet is pushed aside by as little as keeps it apart:
-//! the smallest displacement, in an energy that knows of no spikes, for which faces stay
-//! positive and outlines apart. Both are done from either end. Each film so found is
-//! proved anew, and looked at more closely where that fails.
+//! The as-rigid-as-possible motion does not know of collisions: faces may fold, and outlines may
+//! pass through each other. Every motion is therefore examined at every t
+//! ([`crate::recording::proof`]). If that proof fails, two remedies are tried in turn, each of them
+//! in both directions of t:
 //!
-//! Guaranteed: where nothing is wrong the film is the plain one, bit for bit; both ends
-//! are the designs; the film backwards is that of the exchanged designs. Not
-//! guaranteed: that what meets can be kept apart. What runs into another head-on is held
-//! up by it and not led around, and a limb that goes all the way through another is on
-//! its other side when the design is reached; of films that are not proved the one is
-//! kept that shows less.
+//! 1. If a part that exists in only one design collides, its time window is shortened, so that the
+//!    part appears later or disappears earlier.
+//! 2. The motion is stepped through, and vertices are displaced wherever faces would fold or
+//!    outlines would come too close. The displacements minimise a smoothing energy, so that they
+//!    are smooth dents without spikes.
 //!
-//! - `trouble`: what is first not proved
-//! - `drawn`: what is drawn as the mesh has it, and when
-//! - `lives`: what comes later, or goes earlier
-//! - `outlines`: what may meet what, and which of it is near
-//! - `yielding`: how a mesh gives way where it is pushed
-//! - `push`: the smallest displacement that keeps so much apart
-//! - `walk`: through the film, pushing aside what is in the way
+//! Each result is examined again, and the steps are refined where the proof still fails. The caller
+//! can also place the colliding parts anew ([`FailedProof::births`]).
+//!
+//! Guaranteed: a motion that can be proved is returned unchanged, bit for bit; both ends remain the
+//! designs; the direction of the motion makes no difference except for rounding. Not guaranteed:
+//! that every collision can be avoided. A shape that meets another one head-on is stopped by it and
+//! not led around it. A limb that passes all the way through another is on the other side of it in
+//! the final design, so the two cannot be kept apart. If no result can be proved, the one with the
+//! fewest folded faces and crossings is returned.
+//!
+//! - `defects`: the first fold or collision of a motion
+//! - `drawn_pieces`: boundary loops that are drawn, and when
+//! - `window_shifts`: shortened time windows of colliding parts
+//! - `outlines`: vertices and edges that must not meet, and pairs of them that are close
+//! - `compliance`: displacement of the whole mesh when one vertex is pushed
+//! - `push`: the smallest displacement that satisfies all contact constraints
+//! - `stepper`: steps through the motion and displaces colliding vertices
 
 mod compliance;
 mod defects;
@@ -47,30 +51,41 @@ use outlines::GuardedOutlines;
 use rayon::prelude::*;
 use window_shifts::WindowShift;
 
-/// Even steps of a walk through the film; near both ends, where seams open, more.
+/// Number of equal steps of t from 0 to 1 (heuristic).
 const EVEN: u32 = 64;
+/// Additional times after t = 0, and at the same distances before t = 1, where the two sides of a
+/// cut move apart (heuristic).
 const NEAR_ENDS: [f64; 4] = [1.0 / 1024.0, 1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0];
 
-/// Steps that are nearer to each other are one.
+/// Times closer than this are treated as one (tolerance: far shorter than a step).
 const SAME: f64 = 1e-6;
 
-/// How often lives are shifted, and how often what is in the way is pushed aside: of 60
-/// pairs of icons none was proved that took more than three of either.
+/// Maximum number of times that a time window is shortened (resource limit).
 const SHIFTS: u32 = 8;
+/// Maximum number of passes that displace vertices (resource limit).
 const PUSHES: u32 = 4;
 
-/// Films of more faces are as they are: to walk through one of 20,000 takes seconds.
+/// Motions with more faces are returned unchanged (resource limit: stepping through one with 20,000
+/// faces takes seconds).
 const MOST_FACES: usize = 20_000;
 
-/// Steps of two films that are compared.
+/// Number of equal steps of t over which folded faces and crossings are counted to compare two
+/// results (resource limit).
 const COMPARED: u32 = 256;
 
-/// A film that is not proved, from either end.
+/// Motion that could not be proved free of folds and crossings, once from t = 0 to 1 and once with
+/// source and target swapped.
 pub(super) struct FailedProof([(GuardDirection, GuardCandidate); 2]);
 
 impl FailedProof {
-    /// Nothing where the film is proved, or too large to be guarded. `swelling` are the
-    /// pieces that are not drawn as the mesh has them.
+    /// Examines a motion. Returns `None` if it is proved, if it has too many faces, or if it cannot
+    /// be recorded.
+    ///
+    /// `pieces` is the number of pieces. `swelling` contains the indices of the pieces that swell:
+    /// they are not drawn along the mesh boundary and are therefore not examined.
+    ///
+    /// # Errors
+    /// If the motion cannot be swapped or the work is cancelled.
     pub(super) fn of(
         film: &Arap,
         (pieces, swelling): (usize, &[usize]),
@@ -96,7 +111,7 @@ impl FailedProof {
             Some(plain) if plain.trouble.is_some() => plain,
             _ => return Ok(None),
         };
-        // From either end: none of the designs is the first.
+        // Both directions are examined, so that swapping the designs does not change the result.
         let back = GuardDirection {
             plain: film.swapped(progress)?,
             drawn: there.drawn.clone(),
@@ -105,13 +120,18 @@ impl FailedProof {
         Ok(from_back.map(|from_back| Self([(there, plain), (back, from_back)])))
     }
 
-    /// When parts of one design alone meet something, as far as that is known.
+    /// Returns the times at which a part that exists in only one design collides: the first such
+    /// collision from t = 0, and the first from t = 1. Either is missing if another defect comes
+    /// first.
     pub(super) fn births(&self) -> Vec<f64> {
         let [there, back] = self.0.each_ref().map(|(way, film)| way.birth(film));
         there.into_iter().chain(back.map(|t| 1.0 - t)).collect()
     }
 
-    /// The film in which the least is wrong.
+    /// Returns the best motion that the remedies achieve.
+    ///
+    /// # Errors
+    /// If a motion cannot be built or the work is cancelled.
     pub(super) fn kept_apart(&self, progress: &dyn Progress) -> Result<Arap, BuildError> {
         let [(there, plain), (back, from_back)] = &self.0;
         let both = |of: &GuardStage,
@@ -132,24 +152,26 @@ impl FailedProof {
     }
 }
 
-/// What makes another of a film.
+/// A remedy: makes a new candidate from a candidate of the same direction.
 type GuardStage<'a> =
     dyn Fn(&GuardDirection, &GuardCandidate) -> Result<GuardCandidate, BuildError> + Sync + 'a;
 
-/// A film that was tried.
+/// A motion that was tried, with its defects.
 #[derive(Clone)]
 struct GuardCandidate {
     film: Arap,
     trouble: Option<FirstDefect>,
-    /// Faces that are folded and crossings, over all steps.
+    /// Number of folded faces and crossings, summed over all steps; 0 if the motion is proved.
     seen: usize,
-    /// By how much it differs from the plain film.
+    /// Difference from the original motion: the sum of the squared displacements, plus the total
+    /// time by which time windows were shortened.
     differs: f64,
 }
 
 impl GuardCandidate {
-    /// The less, the better: what is proved, then what shows less, then what differs
-    /// less.
+    /// Returns the cost by which candidates are compared; the lowest is best. Proved motions come
+    /// first, then those with fewer folded faces and crossings, then those that differ less from
+    /// the original.
     fn order(&self) -> f64 {
         let differs = self.differs / (1.0 + self.differs);
         match self.trouble {
@@ -159,14 +181,14 @@ impl GuardCandidate {
     }
 }
 
-/// A film from its t = 0.
+/// One direction of the motion: the original motion from its t = 0, and its drawn pieces.
 struct GuardDirection {
     plain: Arap,
     drawn: DrawnPieces,
 }
 
 impl GuardDirection {
-    /// A film that was found for it; none where it does not settle.
+    /// Examines a motion. Returns `None` if it cannot be recorded.
     fn tried(
         &self,
         film: Arap,
@@ -188,7 +210,8 @@ impl GuardDirection {
         }))
     }
 
-    /// When a part of one design alone meets something, if that is what comes first.
+    /// Returns the time at which a part that exists in only one design collides, if that is the
+    /// first defect.
     fn birth(&self, film: &GuardCandidate) -> Option<f64> {
         let meeting = film.trouble?.meeting?;
         let parts = film.film.mesh().components();
@@ -199,8 +222,8 @@ impl GuardDirection {
         is_born.then_some(meeting.t)
     }
 
-    /// The film in which what comes or goes does so later or earlier; the plain one where
-    /// it would have no time left.
+    /// Shortens the time windows of colliding parts that exist in only one design. Returns `plain`
+    /// if a window would become too short.
     fn retimed(
         &self,
         plain: &GuardCandidate,
@@ -225,7 +248,8 @@ impl GuardDirection {
         Ok(tried)
     }
 
-    /// The best of the films in which what is in the way is pushed aside.
+    /// Displaces colliding vertices, with finer time steps after each attempt that could not be
+    /// proved. Returns the best candidate, which may be `start`.
     fn pushed(
         &self,
         start: &GuardCandidate,
@@ -262,7 +286,7 @@ impl GuardDirection {
     }
 }
 
-/// The steps of a first walk.
+/// Returns the times at which the first pass stops, in increasing order.
 fn times() -> Vec<f64> {
     let even = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN));
     let near = NEAR_ENDS.iter().flat_map(|&t| [t, 1.0 - t]);
@@ -271,7 +295,7 @@ fn times() -> Vec<f64> {
     times
 }
 
-/// Adds a step at a time, and divides those about it.
+/// Adds the time `t`, and the midpoints between it and its two neighbours.
 fn divide(times: &mut Vec<f64>, t: f64) {
     let after = times
         .partition_point(|&time| time <= t)
@@ -282,7 +306,8 @@ fn divide(times: &mut Vec<f64>, t: f64) {
     times.dedup_by(|b, a| *b - *a < SAME);
 }
 
-/// A guard of the times at which anything is moved, and those beside them.
+/// Creates a guard from displacements, limited to the time span in which a vertex is displaced,
+/// plus one time on either side.
 fn guard(moved: stepper::GuardDisplacements) -> Option<Guard> {
     let moves = |k: &usize| moved[*k].1.iter().any(|&by| by != DVec2::ZERO);
     let first = (0..moved.len()).find(moves)?.saturating_sub(1);
@@ -292,7 +317,7 @@ fn guard(moved: stepper::GuardDisplacements) -> Option<Guard> {
     Guard::new(times, &moved)
 }
 
-/// How much of a film is folded or crosses, at steps.
+/// Returns the number of folded faces and crossings, summed over [`COMPARED`] steps.
 fn seen(film: &Arap, drawn: &[DrawnLoop]) -> usize {
     let at = |step: u32| {
         let t = f64::from(step) / f64::from(COMPARED);

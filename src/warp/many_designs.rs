@@ -1,14 +1,14 @@
-//! Warps of the plane for many designs: from a blend's frame one map into each of them.
+//! Warps of the plane for many designs: one map from the frame of a blend to each design.
 //!
-//! The features of a blend lie between those of all designs at its weights, and from there
-//! to each design leads the map that a warp of two has at its end: a pair's source is that
-//! design, and its target the blend. So each kind of warp by features is one of many
-//! designs, and that of two is the pair's: each of its two maps goes by where the features
-//! are and by where they belong, and by nothing else.
+//! The features of a blend lie between those of all designs, according to the weights. The map from
+//! the blend to a design is that of a warp of two designs at t = 1, whose source is the design and
+//! whose target is the blend. Every feature-based warp of two designs can therefore be used for
+//! many. For two designs the result is that of the warp itself, because each of its two maps
+//! depends only on the features in the frame and in one design.
 //!
-//! Guaranteed: a design at its own corner is looked up at the very same place, to the last
-//! bit; the order of the designs does not matter, nor does what has no weight. A frame
-//! cannot fail: what cannot be warped is looked up where it lies.
+//! Guaranteed: with weight 1 a design is looked up at exactly the same points, bit for bit; the
+//! order of the designs does not matter, except for lines with opposite directions. A frame cannot
+//! fail: where a warp is impossible, points are looked up where they lie.
 
 use super::{
     Lattice, LatticeOptions, LineInterpolation, LineOptions, LineWarp, Placement, PlaneGrid,
@@ -19,29 +19,29 @@ use crate::geometry::{Bounds, DVec2};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// What the designs have in common: points and lines, each in the same order in all.
+/// Features that all designs have in common: points and lines, in the same order in each design.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManyFeatures {
-    /// Of each point where it is in each design.
+    /// For each point, its position in each design.
     pub points: Vec<Vec<DVec2>>,
-    /// The same of lines, by their ends.
+    /// For each line, its two ends in each design.
     pub lines: Vec<Vec<[DVec2; 2]>>,
 }
 
-/// How features take the plane along.
+/// Kind of warp that moves the plane with the features.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ManyWarp {
-    /// As [`LineWarp`].
+    /// Warp by lines, see [`LineWarp`].
     Lines(LineOptions),
-    /// As [`ScatteredWarp`].
+    /// Warp by scattered points, see [`ScatteredWarp`].
     Scattered(ScatteredOptions),
-    /// As [`Lattice`].
+    /// Warp by a lattice, see [`Lattice`].
     Lattice(LatticeOptions),
 }
 
-/// Where the vertices of a mesh are in the frame of a blend, and in each of its designs: a
-/// [`Placement`] of many.
+/// Positions of the vertices of a mesh in the frame of a blend and in each design; the counterpart
+/// of [`Placement`] for many designs.
 #[derive(Clone, Debug)]
 pub struct ManyPlaces {
     faces: Arc<[[u32; 3]]>,
@@ -50,7 +50,7 @@ pub struct ManyPlaces {
 }
 
 impl ManyPlaces {
-    /// The frame and one of the designs.
+    /// Returns the placement for one design, which serves as source and as target.
     ///
     /// # Panics
     /// If there is no such design.
@@ -67,13 +67,13 @@ impl ManyPlaces {
 }
 
 impl ManyFeatures {
-    /// Whether there are none.
+    /// Returns whether there are no features.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points.is_empty() && self.lines.is_empty()
     }
 
-    /// Where they lie in one of the designs.
+    /// Returns the points and lines of one design.
     ///
     /// # Panics
     /// If there is no such design.
@@ -85,7 +85,7 @@ impl ManyFeatures {
         )
     }
 
-    /// Where they lie in a blend; lines as it is said how they lie between others.
+    /// Returns the points and lines of a blend. `between` is the interpolation of lines.
     #[must_use]
     pub fn blended(
         &self,
@@ -116,12 +116,12 @@ impl ManyFeatures {
     }
 }
 
-/// The way along a line between others: its length is theirs, blended, and its direction is
-/// blended as the angle from the direction that all have on the mean.
+/// Returns the vector along a blended line. Its length is the blended length. Its direction is the
+/// mean direction of all lines, rotated by the blended angle to that direction.
 fn turned(lines: &[[DVec2; 2]], weights: &[f64]) -> DVec2 {
     let ways = || lines.iter().map(|[a, b]| *b - *a);
     let all: DVec2 = ways().map(DVec2::normalize_or_zero).sum();
-    // Of two opposite ones counter-clockwise from the first.
+    // If two directions are opposite, the mean is perpendicular to the first, counter-clockwise.
     let middle = match ways().next() {
         Some(first) if all.length() < 1e-9 => first.perp().normalize_or_zero(),
         _ => all.normalize_or_zero(),
@@ -136,7 +136,8 @@ fn turned(lines: &[[DVec2; 2]], weights: &[f64]) -> DVec2 {
     DVec2::from_angle(angle).rotate(middle) * length
 }
 
-/// A warp of the plane for many designs, on a grid. Cloning is cheap but for the grid.
+/// A warp of the plane for many designs, evaluated on a grid. Cloning copies the features and the
+/// grid points.
 #[derive(Clone, Debug)]
 pub struct PlaneBlend {
     designs: usize,
@@ -147,13 +148,13 @@ pub struct PlaneBlend {
 }
 
 impl PlaneBlend {
-    /// Of so many designs that are seen in a frame.
+    /// Creates the warp of `designs` designs, seen in the given frame.
     ///
     /// # Errors
-    /// What is wrong with the options or the features, in words.
+    /// A message if the options or the features are invalid.
     ///
     /// # Panics
-    /// If a feature is not in each of the designs.
+    /// If a feature does not have one position per design.
     pub fn new(
         designs: usize,
         features: ManyFeatures,
@@ -173,7 +174,7 @@ impl PlaneBlend {
             frame,
             grid,
         };
-        // Whatever can be wrong is wrong with some design.
+        // Invalid options or features make the warp of at least one design fail.
         for design in 0..designs {
             let own = blend.features.of(design);
             blend.looked(&own, &own, &mut [])?;
@@ -181,10 +182,10 @@ impl PlaneBlend {
         Ok(blend)
     }
 
-    /// The places of a blend.
+    /// Returns the positions of a blend.
     ///
     /// # Panics
-    /// If there are not as many weights as designs.
+    /// If the number of weights differs from the number of designs.
     #[must_use]
     pub fn places(&self, weights: &[f64]) -> ManyPlaces {
         assert_eq!(weights.len(), self.designs, "a weight for each design");
@@ -210,7 +211,8 @@ impl PlaneBlend {
         }
     }
 
-    /// Where in a design with these features the places are that lie in a blend with those.
+    /// Maps positions of the frame of a blend to a design. The first features are those of the
+    /// design, the second those of the blend.
     fn looked(
         &self,
         (points, lines): &(Vec<DVec2>, Vec<[DVec2; 2]>),
@@ -244,7 +246,7 @@ impl PlaneBlend {
     }
 }
 
-/// Moves places to where a warp looks them up in its source at its end.
+/// Replaces positions by those at which a warp at t = 1 looks them up in its source.
 fn end_of(mut warp: impl PlaneWarp, places: &mut [DVec2]) {
     let frame = places.to_vec();
     let mut in_target = frame.clone();
@@ -279,7 +281,8 @@ mod tests {
         each.fold(0.0, f64::max)
     }
 
-    /// Lines and points that do not lie too near each other, in so many designs.
+    /// Random lines and points that do not come too close to each other, in the given number of
+    /// designs.
     fn features(designs: usize) -> impl Strategy<Value = ManyFeatures> {
         let near = move |x: f64, y: f64| {
             let place = (-0.08..0.08, -0.08..0.08);
@@ -319,7 +322,7 @@ mod tests {
                         .expect("a warp").look_up(t, &frame, &mut a, &mut b),
                     ManyWarp::Scattered(options) => ScatteredWarp::new(&FRAME, &points, &lines, *options)
                         .expect("a warp").look_up(t, &frame, &mut a, &mut b),
-                    // What it is refined to depends on both ends.
+                    // The refinement of the lattice depends on both designs.
                     ManyWarp::Lattice(_) => continue,
                 }
                 let places = made.places(&[1.0 - t, t]);

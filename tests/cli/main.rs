@@ -42,8 +42,8 @@ fn check_prints_one_json_object_or_a_table() {
     assert_eq!(report["grid"][0], 64);
     let table = cli.succeeds("check a.obj b.obj --samples 5");
     assert!(table.lines().any(|line| line.starts_with("time  ")));
-    let verdict = "verdict      no folds, no crossings";
-    assert!(table.lines().any(|line| line == verdict), "{table}");
+    let check = "check        no folds, no crossings";
+    assert!(table.lines().any(|line| line == check), "{table}");
     assert!(table.lines().count() < 40, "{table}");
     let long = table.lines().find(|line| line.chars().count() > 110);
     assert_eq!(long, None);
@@ -382,9 +382,9 @@ fn a_defect_is_reported_with_its_t_cause_and_remedy() {
     );
     let table = cli.succeeds("check a.obj turned.obj --homotopy linear");
     for text in [
-        "2 faces fold near t = 0.38, about (",
-        "cause: straight",
-        "polar interpolation",
+        "2 faces fold near t = 0.38, near (",
+        "Cause: straight",
+        "Fix: use polar interpolation",
     ] {
         assert!(table.contains(text), "{text}: {table}");
     }

@@ -12,10 +12,9 @@ use std::sync::{Arc, LazyLock};
 
 use bevy::prelude::Resource;
 
-use crate::app::jobs::job::JobError;
 use crate::app::session::document::OpenDocument;
 use crate::app::session::history::{ProjectSnapshot, UndoHistory};
-use crate::app::session::load::{LoadError, LoadRequest, TransitionProblem};
+use crate::app::session::load::TransitionProblem;
 use crate::app::session::save::SaveError;
 use crate::app::session::transition_work::TransitionWork;
 use crate::app::session::unsaved_project::UnsavedProject;

@@ -1,4 +1,4 @@
-//! How long each stage of some work took, heard from its progress.
+//! Measures how long each stage of a computation takes, from its progress reports.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -6,10 +6,11 @@ use std::time::Instant;
 
 use crate::work::progress::Progress;
 
-/// Stages and the seconds that they took.
+/// Duration of each stage in seconds, by the name of the stage.
 pub(in crate::cli) type StageDurations = BTreeMap<&'static str, f64>;
 
-/// Stages that belong to rigid parts once a mesh is there, and to fields.
+/// Stages that [`triangulating`] does not count: the preparation of rigid parts once they have a
+/// mesh, and the computation of distance fields. (Matching is not counted either.)
 const NOT_TRIANGULATING: [&str; 5] = [
     "subdividing",
     "decomposing",
@@ -18,56 +19,62 @@ const NOT_TRIANGULATING: [&str; 5] = [
     "measuring distances",
 ];
 
-/// A progress that passes everything on and looks at the clock. A stage lasts
-/// from its first report to the first of another one; what goes on before any
-/// report belongs to no stage. Where several threads report, a time belongs to
-/// the stage that was reported last, so that the stages add up to the whole.
+/// A [`Progress`] that forwards all reports and measures the duration of each stage.
+///
+/// A stage lasts from its first report to the first report of another stage. Time before the first
+/// report belongs to no stage. If several threads report, the time counts for the stage that was
+/// reported last, so the durations add up to the elapsed time.
 pub(in crate::cli) struct StageClock<'a> {
     inner: &'a dyn Progress,
-    heard: Mutex<StageReports>,
+    timer: Mutex<StageTimer>,
 }
 
+/// Current stage and the durations so far.
 #[derive(Default)]
-struct StageReports {
-    now: Option<(&'static str, Instant)>,
+struct StageTimer {
+    /// Name of the current stage and the moment of its first report; `None` before the first stage
+    /// and after [`StageClock::stages`].
+    current: Option<(&'static str, Instant)>,
     stages: StageDurations,
 }
 
-impl StageReports {
+impl StageTimer {
+    /// Ends the current stage and starts `stage`, if there is one.
     fn change_to(&mut self, stage: Option<&'static str>) {
-        let at = Instant::now();
-        let before = std::mem::replace(&mut self.now, stage.map(|stage| (stage, at)));
-        if let Some((name, begin)) = before {
-            *self.stages.entry(name).or_default() += at.duration_since(begin).as_secs_f64();
+        let now = Instant::now();
+        let previous = std::mem::replace(&mut self.current, stage.map(|stage| (stage, now)));
+        if let Some((name, start)) = previous {
+            *self.stages.entry(name).or_default() += now.duration_since(start).as_secs_f64();
         }
     }
 }
 
 impl<'a> StageClock<'a> {
+    /// Creates a clock that forwards all reports to `inner`.
     pub fn new(inner: &'a dyn Progress) -> Self {
         Self {
             inner,
-            heard: Mutex::default(),
+            timer: Mutex::default(),
         }
     }
 
-    /// Ends the stage that runs, and tells of all.
+    /// Ends the current stage and returns the durations of all stages since the last call.
     pub fn stages(&self) -> StageDurations {
-        // Times are whole whenever the lock is free, even after a panic.
-        let mut heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
-        heard.change_to(None);
-        std::mem::take(&mut heard.stages)
+        // The data is complete whenever the lock is free, even after a panic.
+        let mut timer = self.timer.lock().unwrap_or_else(PoisonError::into_inner);
+        timer.change_to(None);
+        std::mem::take(&mut timer.stages)
     }
 }
 
 impl Progress for StageClock<'_> {
     fn report(&self, stage: &'static str, fraction: f64) {
-        let mut heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
-        if heard.now.is_none_or(|(now, _)| now != stage) {
-            heard.change_to(Some(stage));
+        let mut timer = self.timer.lock().unwrap_or_else(PoisonError::into_inner);
+        if timer.current.is_none_or(|(name, _)| name != stage) {
+            timer.change_to(Some(stage));
         }
-        // Whoever listens next may take long, and others report meanwhile.
-        drop(heard);
+        // The inner progress may take long, and other threads must not wait for it.
+        drop(timer);
         self.inner.report(stage, fraction);
     }
 
@@ -76,12 +83,14 @@ impl Progress for StageClock<'_> {
     }
 }
 
-/// Seconds of the stages that match boundaries and parts.
+/// Returns the duration of the stages that match boundaries and parts, in seconds.
 pub(super) fn matching(stages: &StageDurations) -> f64 {
     total(stages, is_matching)
 }
 
-/// Seconds of the stages that make a common triangulation.
+/// Returns the duration of all stages that are neither matching nor in [`NOT_TRIANGULATING`], in
+/// seconds. For outlines this is mostly the common triangulation and its improvement; reading the
+/// designs is included.
 pub(super) fn triangulating(stages: &StageDurations) -> f64 {
     total(stages, |stage| {
         !is_matching(stage) && !NOT_TRIANGULATING.contains(&stage)
@@ -92,10 +101,11 @@ fn is_matching(stage: &str) -> bool {
     stage.starts_with("match") || stage.starts_with("pairing")
 }
 
-fn total(stages: &StageDurations, is: impl Fn(&str) -> bool) -> f64 {
-    let chosen = stages.iter().filter(|(stage, _)| is(stage));
-    // Not summed: of none that is -0.
-    chosen.fold(0.0, |sum, (_, seconds)| sum + seconds)
+/// Returns the sum of the durations of the selected stages, in seconds.
+fn total(stages: &StageDurations, is_selected: impl Fn(&str) -> bool) -> f64 {
+    let selected = stages.iter().filter(|(stage, _)| is_selected(stage));
+    // `sum` would return -0.0 for no stages, which prints as "-0".
+    selected.fold(0.0, |sum, (_, seconds)| sum + seconds)
 }
 
 #[cfg(test)]
@@ -105,7 +115,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn stages_are_told_apart_and_added_up() {
+    fn stages_are_timed_separately_and_summed() {
         let clock = StageClock::new(&Silent);
         for stage in [
             "matching",

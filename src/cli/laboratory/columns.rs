@@ -1,55 +1,63 @@
-//! The report on a transition as a row of a table: every column once, with its
-//! unit, how it is read, and whether the summary tells of it.
+//! Columns of the report of `check --pairs`: for each column its heading, its unit, how to read it
+//! from a [`PairReport`], and its label in the summary.
 //!
-//! After a table's own columns come `direction`, `status` and these. Units
-//! stand in the headings: lengths called `share` are fractions, those called
-//! `diameters` fractions of the larger design's diameter.
+//! The report starts with the columns of the input table; `direction`, `status` and the columns of
+//! [`ALL`] follow. A heading ends with the unit, if there is one: `_share` is a fraction, `_deg`
+//! degrees, `_diameters` a fraction of the larger design's diameter, `_cells` grid cells, `_s`
+//! seconds.
 
 use super::report::{FindingReport, PairReport};
 use crate::measure::{Distribution, FilmReport, MeshReport, MotionReport};
 use crate::transition::TransitionMethod;
 
-/// Which way the pair was taken: `forward`, `backward`.
+/// Heading of the column with the direction of the film: `forward` from source to target, or
+/// `backward`.
 pub(super) const DIRECTION: &str = "direction";
 
-/// `ok`, or what went wrong.
+/// Heading of the column that says `ok`, or why the pair failed.
 pub(super) const STATUS: &str = "status";
 
-/// One measure of a report.
+/// Column of the report: one measure of a pair.
 pub(super) struct ReportColumn {
+    /// Heading without the unit.
     name: &'static str,
     unit: ColumnUnit,
-    read: ColumnReader,
-    /// What the summary calls it and which of its values are the good ones, if
-    /// it tells of them.
+    reader: ColumnReader,
+    /// Label of the measure in the summary, without the unit, and which values are better; `None`
+    /// if the summary omits the measure.
     pub told: Option<(&'static str, BetterDirection)>,
-    /// Whether the summary draws its values as bars.
+    /// Whether the summary shows a histogram of the values.
     pub is_drawn: bool,
 }
 
-/// Which values are the good ones.
+/// Whether small or large values of a measure are better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BetterDirection {
     Small,
     Large,
 }
 
+/// Unit of a measure.
 #[derive(Clone, Copy)]
 enum ColumnUnit {
+    /// No unit: a count, a ratio, or text.
     Pure,
+    /// Fraction of 1.
     Share,
     Degrees,
+    /// Diameter of the larger design.
     Diameters,
+    /// Cells of the grid of distance fields.
     Cells,
     Seconds,
 }
 
 impl ColumnUnit {
-    /// At the end of a heading, and of words.
+    /// Returns the endings that name the unit: of the heading, and of the label in the summary.
     const fn suffixes(self) -> [&'static str; 2] {
         match self {
             Self::Pure => ["", ""],
-            Self::Share => ["_share", ", share"],
+            Self::Share => ["_share", ", fraction"],
             Self::Degrees => ["_deg", ", degrees"],
             Self::Diameters => ["_diameters", ", diameters"],
             Self::Cells => ["_cells", ", cells"],
@@ -58,68 +66,74 @@ impl ColumnUnit {
     }
 }
 
-/// How a report is read.
+/// Function that reads the value of a column from the report on a pair. It returns `None` if the
+/// pair has no such value, such as faces in a blend of fields.
 #[derive(Clone, Copy)]
 enum ColumnReader {
     Number(fn(&PairReport) -> Option<f64>),
-    Words(fn(&PairReport) -> Option<&str>),
+    Text(fn(&PairReport) -> Option<&str>),
 }
 
 impl ReportColumn {
-    /// What it is called in the table.
+    /// Returns the heading of the column, with its unit.
     pub fn heading(&self) -> String {
         format!("{}{}", self.name, self.unit.suffixes()[0])
     }
 
-    /// What it is called in the summary, if that tells of it.
+    /// Returns the label in the summary, with its unit; `None` if the summary omits the measure.
     pub fn words(&self) -> Option<String> {
-        let (words, _) = self.told?;
-        Some(format!("{words}{}", self.unit.suffixes()[1]))
+        let (label, _) = self.told?;
+        Some(format!("{label}{}", self.unit.suffixes()[1]))
     }
 
-    /// Its number in a report, where it is one and there is one.
+    /// Returns the value in a report as a number; `None` if it is text or missing.
     pub fn number(&self, report: &PairReport) -> Option<f64> {
-        match self.read {
-            ColumnReader::Number(of) => of(report),
-            ColumnReader::Words(_) => None,
+        match self.reader {
+            ColumnReader::Number(read) => read(report),
+            ColumnReader::Text(_) => None,
         }
     }
 
-    /// Its cell: of a number as many digits as it takes to read it back.
+    /// Returns the text of the column's cell for a pair. A number has as many digits as are needed
+    /// to read it back exactly.
     pub fn cell(&self, report: &PairReport) -> String {
-        // Without a number the cell is empty: 0 would be a measurement.
-        let text = match self.read {
-            ColumnReader::Number(of) => of(report).map(|x| x.to_string()),
-            ColumnReader::Words(of) => of(report).map(str::to_owned),
+        // A missing value is an empty cell, because 0 would look like a measurement.
+        let text = match self.reader {
+            ColumnReader::Number(read) => read(report).map(|x| x.to_string()),
+            ColumnReader::Text(read) => read(report).map(str::to_owned),
         };
         text.unwrap_or_default()
     }
 
-    const fn told(self, words: &'static str, better: BetterDirection) -> Self {
+    /// Adds the column to the summary.
+    const fn summarised(self, label: &'static str, better: BetterDirection) -> Self {
         Self {
-            told: Some((words, better)),
+            told: Some((label, better)),
             ..self
         }
     }
 
-    const fn drawn(self, words: &'static str) -> Self {
+    /// Adds the column to the summary with a histogram; small values are better.
+    const fn with_histogram(self, label: &'static str) -> Self {
         Self {
             is_drawn: true,
-            ..self.told(words, BetterDirection::Small)
+            ..self.summarised(label, BetterDirection::Small)
         }
     }
 }
 
-/// Whether a heading is one of the report's own.
+/// Returns whether a heading belongs to the report, so that the input table must not use it.
 pub(super) fn is_own(heading: &str) -> bool {
-    heading == DIRECTION || heading == STATUS || ALL.iter().any(|own| own.heading() == heading)
+    heading == DIRECTION
+        || heading == STATUS
+        || ALL.iter().any(|column| column.heading() == heading)
 }
 
-const fn column(name: &'static str, unit: ColumnUnit, read: ColumnReader) -> ReportColumn {
+const fn column(name: &'static str, unit: ColumnUnit, reader: ColumnReader) -> ReportColumn {
     ReportColumn {
         name,
         unit,
-        read,
+        reader,
         told: None,
         is_drawn: false,
     }
@@ -128,15 +142,16 @@ const fn column(name: &'static str, unit: ColumnUnit, read: ColumnReader) -> Rep
 const fn number(
     name: &'static str,
     unit: ColumnUnit,
-    of: fn(&PairReport) -> Option<f64>,
+    read: fn(&PairReport) -> Option<f64>,
 ) -> ReportColumn {
-    column(name, unit, ColumnReader::Number(of))
+    column(name, unit, ColumnReader::Number(read))
 }
 
-const fn words(name: &'static str, of: fn(&PairReport) -> Option<&str>) -> ReportColumn {
-    column(name, Pure, ColumnReader::Words(of))
+const fn text(name: &'static str, read: fn(&PairReport) -> Option<&str>) -> ReportColumn {
+    column(name, Pure, ColumnReader::Text(read))
 }
 
+/// Returns the first defect of the pair, if there is one.
 fn finding(report: &PairReport) -> Option<&FindingReport> {
     report.verdict.findings.first()
 }
@@ -145,16 +160,16 @@ fn count(n: usize) -> Option<f64> {
     Some(n as f64)
 }
 
-fn mesh(report: &PairReport, of: fn(&MeshReport) -> f64) -> Option<f64> {
-    report.mesh.as_ref().map(of)
+fn mesh(report: &PairReport, read: fn(&MeshReport) -> f64) -> Option<f64> {
+    report.mesh.as_ref().map(read)
 }
 
-fn film(report: &PairReport, of: fn(&FilmReport) -> Option<usize>) -> Option<f64> {
-    count(of(&report.film)?)
+fn film(report: &PairReport, read: fn(&FilmReport) -> Option<usize>) -> Option<f64> {
+    count(read(&report.film)?)
 }
 
-fn motion(report: &PairReport, of: fn(&MotionReport) -> f64) -> Option<f64> {
-    report.film.motion.as_ref().map(of)
+fn motion(report: &PairReport, read: fn(&MotionReport) -> f64) -> Option<f64> {
+    report.film.motion.as_ref().map(read)
 }
 
 fn conformal(report: &PairReport) -> Option<&Distribution> {
@@ -172,9 +187,9 @@ fn area(report: &PairReport) -> Option<&Distribution> {
 use BetterDirection::{Large, Small};
 use ColumnUnit::{Cells, Degrees, Diameters, Pure, Seconds, Share};
 
-/// All of them, in the order of the table.
+/// All measures, in the order of the report's columns.
 pub(super) const ALL: [ReportColumn; 61] = [
-    words("method", |r| {
+    text("method", |r| {
         Some(
             TransitionMethod::new(r.warp, r.content)
                 .ok()?
@@ -182,10 +197,10 @@ pub(super) const ALL: [ReportColumn; 61] = [
                 .report,
         )
     }),
-    words("verdict", |r| Some(&r.verdict.words)),
+    text("verdict", |r| Some(&r.verdict.words)),
     number("verdict_t", Pure, |r| Some(finding(r)?.finding.t)),
-    words("verdict_cause", |r| Some(&finding(r)?.cause_words)),
-    words("verdict_remedy", |r| Some(&finding(r)?.remedy_words)),
+    text("verdict_cause", |r| Some(&finding(r)?.cause_words)),
+    text("verdict_remedy", |r| Some(&finding(r)?.remedy_words)),
     number("samples", Pure, |r| count(r.samples)),
     number("source_points", Pure, |r| count(r.designs.first()?.points)),
     number("target_points", Pure, |r| count(r.designs.get(1)?.points)),
@@ -197,28 +212,30 @@ pub(super) const ALL: [ReportColumn; 61] = [
     number("steiner_per_boundary_point", Pure, |r| {
         mesh(r, |m| m.steiner_per_boundary_point)
     })
-    .told("Steiner points per boundary point", Small),
+    .summarised("Steiner points per boundary point", Small),
     number("min_angle_source", Degrees, |r| {
         mesh(r, |m| m.min_angle_source_deg)
     })
-    .told("least angle in the source", Large),
+    .summarised("minimum angle in the source", Large),
     number("min_angle_target", Degrees, |r| {
         mesh(r, |m| m.min_angle_target_deg)
     })
-    .told("least angle in the target", Large),
+    .summarised("minimum angle in the target", Large),
     number("faces_below_5_deg", Share, |r| mesh(r, |m| m.thin_faces))
-        .told("faces below 5\u{b0}", Small),
+        .summarised("faces with an angle below 5\u{b0}", Small),
     number("folds_at_end", Pure, |r| {
         mesh(r, |m| m.distortion.folds as f64)
     }),
     number("conformal_median", Pure, |r| Some(conformal(r)?.median)),
-    number("conformal_p95", Pure, |r| Some(conformal(r)?.p95)).drawn("conformal, 95 % of the area"),
-    number("conformal_worst", Pure, |r| Some(conformal(r)?.worst)).drawn("conformal, worst face"),
+    number("conformal_p95", Pure, |r| Some(conformal(r)?.p95))
+        .with_histogram("conformal, 95 % of the area"),
+    number("conformal_worst", Pure, |r| Some(conformal(r)?.worst))
+        .with_histogram("conformal, worst face"),
     number("isometric_median", Pure, |r| Some(isometric(r)?.median)),
     number("isometric_p95", Pure, |r| Some(isometric(r)?.p95))
-        .told("isometric, 95 % of the area", Small),
+        .summarised("isometric, 95 % of the area", Small),
     number("isometric_worst", Pure, |r| Some(isometric(r)?.worst))
-        .told("isometric, worst face", Small),
+        .summarised("isometric, worst face", Small),
     number("area_median", Pure, |r| Some(area(r)?.median)),
     number("area_p95", Pure, |r| Some(area(r)?.p95)),
     number("area_worst", Pure, |r| Some(area(r)?.worst)),
@@ -228,27 +245,27 @@ pub(super) const ALL: [ReportColumn; 61] = [
     number("boundary_stretch_worst", Pure, |r| {
         mesh(r, |m| m.boundary_stretch.worst)
     })
-    .told("stretch of the boundary, worst", Small),
+    .summarised("boundary stretch, worst", Small),
     number("folds_worst", Pure, |r| film(r, |f| f.worst_folds)),
     number("first_fold_t", Pure, |r| r.film.first_fold_t),
     number("min_det", Pure, |r| r.film.min_det),
     number("crossings_worst", Pure, |r| film(r, |f| f.worst_crossings)),
     number("first_crossing_t", Pure, |r| r.film.first_crossing_t),
     number("conformal_excess", Pure, |r| r.film.conformal_excess)
-        .told("conformal, worse on the way", Small),
+        .summarised("conformal overshoot, worst face", Small),
     number("isometric_excess", Pure, |r| r.film.isometric_excess),
     number("area_distortion_excess", Pure, |r| {
         r.film.area_distortion_excess
     }),
-    number("asymmetry", Diameters, |r| r.film.asymmetry).told("asymmetry", Small),
+    number("asymmetry", Diameters, |r| r.film.asymmetry).summarised("asymmetry", Small),
     number("area_variation_excess", Share, |r| {
         Some(r.film.area_variation_excess)
     })
-    .told("area up and down", Small),
+    .summarised("area overshoot", Small),
     number("perimeter_variation_excess", Share, |r| {
         Some(r.film.perimeter_variation_excess)
     })
-    .told("perimeter up and down", Small),
+    .summarised("perimeter overshoot", Small),
     number("pieces_excess", Pure, |r| film(r, |f| f.pieces_excess)),
     number("holes_excess", Pure, |r| film(r, |f| f.holes_excess)),
     number("mean_travel", Diameters, |r| motion(r, |m| m.mean_travel)),
@@ -264,34 +281,35 @@ pub(super) const ALL: [ReportColumn; 61] = [
     number("match_and_triangulate", Seconds, |r| {
         Some(r.seconds.matching + r.seconds.triangulate)
     })
-    .drawn("match and triangulation"),
-    number("build", Seconds, |r| Some(r.seconds.build)).told("build in all", Small),
+    .with_histogram("match and triangulation"),
+    number("build", Seconds, |r| Some(r.seconds.build)).summarised("total build time", Small),
     number("frame", Seconds, |r| Some(r.seconds.frame)),
     number("figure", Seconds, |r| Some(r.seconds.figure)),
     number("measure", Seconds, |r| Some(r.seconds.measure)),
-    number("turning_excess", Share, |r| Some(r.film.turning_excess)).drawn("turning"),
-    words("proof", |r| Some(&r.proof.as_ref()?.words)),
+    number("turning_excess", Share, |r| Some(r.film.turning_excess))
+        .with_histogram("turning overshoot"),
+    text("proof", |r| Some(&r.proof.as_ref()?.words)),
     number("unproved_t", Pure, |r| r.proof.as_ref()?.first_t()),
     number("prove", Seconds, |r| Some(r.proof.as_ref()?.seconds)),
     number("moved_aside", Diameters, |r| {
         r.proof.as_ref()?.proved.as_ref()?.moved_aside
     }),
     number("conformal_by_end", Pure, |r| r.film.conformal_by_end)
-        .told("conformal, worst on the way by worst end", Small),
+        .summarised("conformal, peak over the worse end", Small),
     number("conformal_p95_by_end", Pure, |r| {
         r.film.conformal_p95_by_end
     }),
     number("turning_of_both_excess", Share, |r| {
         Some(r.film.turning_of_both_excess)
     })
-    .told("turning of parts that both have", Small),
+    .summarised("turning overshoot of shared parts", Small),
 ];
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Programs read these: new ones go to the end.
+    /// Headings of all columns. Scripts read them, so new columns are added at the end.
     const HEADINGS: &str = "method verdict verdict_t verdict_cause verdict_remedy samples \
         source_points target_points vertices faces boundary_vertices steiner_per_boundary_point \
         min_angle_source_deg min_angle_target_deg faces_below_5_deg_share folds_at_end \
@@ -307,18 +325,18 @@ mod tests {
         conformal_by_end conformal_p95_by_end turning_of_both_excess_share";
 
     #[test]
-    fn headings_are_what_they_were() {
-        let found: Vec<_> = ALL.iter().map(ReportColumn::heading).collect();
-        assert_eq!(found.join(" "), HEADINGS);
-        assert!(found.iter().all(|heading| is_own(heading)));
+    fn headings_are_unchanged() {
+        let headings: Vec<_> = ALL.iter().map(ReportColumn::heading).collect();
+        assert_eq!(headings.join(" "), HEADINGS);
+        assert!(headings.iter().all(|heading| is_own(heading)));
         assert!(is_own(DIRECTION) && is_own(STATUS));
         assert!(!is_own("source") && !is_own("kind"));
     }
 
     #[test]
-    fn words_say_the_unit() {
-        let words: Vec<_> = ALL.iter().filter_map(ReportColumn::words).collect();
-        assert!(words.contains(&"build in all, seconds".to_owned()));
-        assert_eq!(words.len(), 18);
+    fn labels_of_the_summary_name_the_unit() {
+        let labels: Vec<_> = ALL.iter().filter_map(ReportColumn::words).collect();
+        assert!(labels.contains(&"total build time, seconds".to_owned()));
+        assert_eq!(labels.len(), 18);
     }
 }

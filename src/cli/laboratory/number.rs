@@ -1,14 +1,15 @@
-//! Numbers as people read them, and aligned lines of them.
+//! Formats numbers for reports, and lines with aligned columns.
 
 use crate::io::sanitize::SanitizedLine;
 
-/// Four digits.
+/// Formats a number with at most three decimals, without trailing zeros. From 1 on, it has at least
+/// four significant digits. Below 5e-4 and from 1e7 on, it has an exponent and two digits.
 pub(super) fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 || !x.is_finite() {
         return format!("{x:.0}");
     }
-    // Where three decimals would show one digit, or digits would run on.
+    // Three decimals would show too few digits, or the number would be too long for a column.
     if !(5e-4..1e7).contains(&size) {
         return format!("{x:.1e}");
     }
@@ -26,22 +27,24 @@ pub(super) fn short(x: f64) -> String {
     fixed
 }
 
-/// Lines of text.
+/// Text of a report, assembled line by line.
 #[derive(Default)]
 pub(super) struct NumberLines(pub String);
 
 impl NumberLines {
+    /// Adds a line, without trailing spaces and control characters.
     pub fn line(&mut self, text: &str) {
         self.0 += &SanitizedLine(text.trim_end()).to_string();
         self.0.push('\n');
     }
 
+    /// Adds an empty line.
     pub fn gap(&mut self) {
         self.0.push('\n');
     }
 
-    /// A name that takes so much room, and cells behind it, aligned to the
-    /// right.
+    /// Adds a line with a name, padded to `width` characters, and cells that are aligned to the
+    /// right in columns of 12 characters.
     pub fn cells<C: AsRef<str>>(
         &mut self,
         (name, width): (&str, usize),
@@ -53,9 +56,9 @@ impl NumberLines {
     }
 }
 
-/// A share as per cent.
-pub(super) fn percent(share: f64) -> String {
-    format!("{} %", short(100.0 * share))
+/// Formats a fraction as a percentage.
+pub(super) fn percent(fraction: f64) -> String {
+    format!("{} %", short(100.0 * fraction))
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
-//! The pairs of a table, over all cores.
+//! `check --pairs`: measures the pairs of a table on all cores, and writes a report and a contact
+//! sheet.
 //!
-//! Guarantees: a row for each pair and direction, in the order of the table,
-//! whatever happens to it; report and sheet are written whole or not at all,
-//! at the end; rows that are done are kept however the work ends. Times are
-//! taken while other pairs run on the other cores, unless they go one by one.
+//! Guarantees: the report has a row for each pair and direction, in the order of the table, even if
+//! a pair fails. Report and sheet are written atomically once all pairs are measured. Finished rows
+//! are saved before that, and remain if the program is interrupted. Unless `--one-by-one` is given,
+//! times are measured while other pairs use the other cores.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -30,65 +31,71 @@ use crate::io::sanitize::SanitizedLine;
 use crate::transition::TransitionStyle;
 use crate::work::progress::Progress;
 
-/// Frames of a strip of the sheet.
+/// Number of frames in a strip of the contact sheet (heuristic).
 const STRIP_FRAMES: usize = 7;
 
-/// A table to be worked through, and what comes of it.
-// The fields are needed of a table only, so that the parser must not ask for
-// them.
+/// Options of `check --pairs`: the input table and the output files.
+// `required = false` is needed because without --pairs none of these options is required.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct PairBatchArgs {
-    /// A table of pairs instead: a CSV file with the columns source and target,
-    /// paths relative to its folder; other columns are carried along
+    /// Measure the pairs of a table instead: a CSV file with the columns source and target; paths
+    /// are relative to its folder, and other columns are copied to the report
     #[arg(long, value_name = "FILE.csv", required = false, requires = "out")]
     pairs: PathBuf,
 
-    /// With --pairs: where the report goes, a row for each pair; until it is
-    /// whole, rows that are done are kept beside it, in FILE.partial.csv
+    /// With --pairs: file for the report, with a row for each pair; until all pairs are measured,
+    /// finished rows are saved in FILE.partial.csv
     #[arg(long, value_name = "FILE.csv", required = false, requires = "pairs")]
     out: PathBuf,
 
-    /// With --pairs: a contact sheet too, a strip for each pair (.png or .svg)
+    /// With --pairs: also write a contact sheet with a strip for each pair (.png or .svg)
     #[arg(long, value_name = "FILE.png", requires = "pairs")]
     sheet: Option<PathBuf>,
 
-    /// With --pairs: each pair in both directions
+    /// With --pairs: measure each pair in both directions
     #[arg(long, requires = "pairs")]
     both: bool,
 
-    /// With --pairs: one pair after the other, so that each has the machine for
-    /// itself and its times are those of the window
+    /// With --pairs: measure one pair at a time instead of several in parallel, so that times are
+    /// as in the window
     #[arg(long, requires = "pairs")]
     one_by_one: bool,
 }
 
-/// What became of a table.
+/// Result of measuring a table.
 pub(in crate::cli) struct PairBatchOutcome {
-    /// All pairs in short.
+    /// Summary of all pairs.
     pub summary: PairSummary,
-    /// The files that were written, in words.
+    /// Descriptions of the written files: the path, and whether pairs are missing on the sheet.
     pub written: Vec<String>,
-    /// The line of the first pair that failed, and why it did.
+    /// Line of the first pair that failed, from 1, and its error message.
     pub first_failure: Option<(u64, String)>,
-    /// How far it came, where it was ended before.
+    /// If the work was cancelled: a message with the number of finished pairs.
     pub ended: Option<String>,
 }
 
-/// A row in one direction.
+/// A pair of the table in one direction.
 struct PairJob<'a> {
     row: &'a PairTableRow,
+    /// Whether the film goes from target to source.
     backward: bool,
 }
 
-/// What came of it.
+/// Result of measuring a pair in one direction.
 struct PairResult<'a> {
     job: &'a PairJob<'a>,
+    /// Report without samples, or the error message in one line.
     report: Result<PairReport, String>,
+    /// Strip of the contact sheet; `None` without `--sheet`.
     strip: Option<PairStrip>,
 }
 
 impl PairBatchArgs {
-    /// Measures every pair and writes what was found.
+    /// Measures every pair and writes the report and the contact sheet.
+    ///
+    /// # Errors
+    /// The table cannot be read, or an output file cannot be written. A pair that fails is not an
+    /// error, and neither is a cancellation.
     pub fn run(
         &self,
         measuring: &MeasuringArgs,
@@ -98,7 +105,7 @@ impl PairBatchArgs {
             Some(path) => Some((sheet_kind(path)?, path)),
             None => None,
         };
-        self.check_places()?;
+        self.check_output_paths()?;
         let table = table::read(&self.pairs)
             .map_err(|error| CliError::Failed(format!("`{}`: {error}", self.pairs.display())))?;
         let jobs = self.jobs(&table);
@@ -107,92 +114,94 @@ impl PairBatchArgs {
             let path = self.out.clone();
             CliError::failed(ExportError::Write { path, source })
         })?;
-        let done = self.work(&jobs, &partial, measuring, progress);
-        let unfinished = jobs.len() - done.len();
+        let results = self.measure_all(&jobs, &partial, measuring, progress);
+        let unfinished = jobs.len() - results.len();
         let (written, ended) = if unfinished > 0 {
-            (Vec::new(), Some(ended(partial, jobs.len())?))
+            (Vec::new(), Some(cancelled_message(partial, jobs.len())?))
         } else {
             progress.report("writing", 1.0);
-            (self.write(&table, &done, partial, sheet)?, None)
+            (self.write(&table, &results, partial, sheet)?, None)
         };
-        let failure = |d: &PairResult<'_>| Some((d.job.row.line, d.report.as_ref().err()?.clone()));
+        let failure = |r: &PairResult<'_>| Some((r.job.row.line, r.report.as_ref().err()?.clone()));
         Ok(PairBatchOutcome {
-            summary: PairSummary::of(done.iter().map(|d| d.report.as_ref().ok()), unfinished),
+            summary: PairSummary::of(results.iter().map(|r| r.report.as_ref().ok()), unfinished),
             written,
-            first_failure: done.iter().find_map(failure),
+            first_failure: results.iter().find_map(failure),
             ended,
         })
     }
 
-    /// Writes report and sheet; what was written, in words.
+    /// Writes the report and the contact sheet, and deletes the partial table. Returns descriptions
+    /// of the written files.
     fn write(
         &self,
         table: &PairTable,
-        done: &[PairResult<'_>],
+        results: &[PairResult<'_>],
         partial: PartialTable,
         sheet: Option<(StillKind, &PathBuf)>,
     ) -> Result<Vec<String>, CliError> {
-        let all = std::iter::once(rows::header(table)).chain(done.iter().map(PairResult::row));
-        let bytes = all.collect::<Vec<_>>().concat();
+        let lines = std::iter::once(rows::header(table)).chain(results.iter().map(PairResult::row));
+        let bytes = lines.collect::<Vec<_>>().concat();
         write_atomically(&self.out, &bytes).map_err(|error| {
-            let kept = partial.path.display();
-            CliError::Failed(format!("{error}; until then the rows are in `{kept}`"))
+            let path = partial.path.display();
+            CliError::Failed(format!("{error}; the rows are saved in `{path}`"))
         })?;
         partial.remove().map_err(CliError::failed)?;
         let mut written = vec![self.out.display().to_string()];
         if let Some((kind, path)) = sheet {
-            let left_out = write_sheet(done, kind, path)?;
-            written.push(path.display().to_string() + &left_out);
+            let remark = write_sheet(results, kind, path)?;
+            written.push(path.display().to_string() + &remark);
         }
         Ok(written)
     }
 
-    /// Before the work and not after it: whether what comes out can be
-    /// written, and over nothing that goes in.
-    fn check_places(&self) -> Result<(), CliError> {
-        let same = |a: &Path, b: &Path| match (a.canonicalize(), b.canonicalize()) {
-            // A file that is not there yet is compared as it is written.
+    /// Checks before the work that the output files can be written and do not replace the input
+    /// table or each other.
+    fn check_output_paths(&self) -> Result<(), CliError> {
+        let is_same_file = |a: &Path, b: &Path| match (a.canonicalize(), b.canonicalize()) {
             (Ok(a), Ok(b)) => a == b,
+            // A file that does not exist yet has no canonical path.
             _ => a == b,
         };
         for path in std::iter::once(&self.out).chain(&self.sheet) {
             let shown = path.display();
-            if same(path, &self.pairs) {
+            if is_same_file(path, &self.pairs) {
                 return Err(CliError::Usage(format!(
-                    "`{shown}` is the table itself: choose another name for the output"
+                    "`{shown}` is the table itself; choose another name for the output"
                 )));
             }
             let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
             if path.exists() && !path.is_file() {
                 return Err(CliError::Failed(format!(
-                    "cannot write `{shown}`: it is no file; choose another name for the output"
+                    "cannot write `{shown}`: it is not a file; choose another name for the output"
                 )));
             }
             if folder.is_some_and(|folder| !folder.is_dir()) {
                 return Err(CliError::Failed(format!(
-                    "cannot write `{shown}`: name a file in a folder that exists"
+                    "cannot write `{shown}`: its folder does not exist; create it or choose another"
                 )));
             }
         }
-        if (self.sheet.as_ref()).is_some_and(|sheet| same(sheet, &self.out)) {
-            let one = "--out and --sheet are one file: choose two names";
-            return Err(CliError::Usage(one.to_owned()));
+        if (self.sheet.as_ref()).is_some_and(|sheet| is_same_file(sheet, &self.out)) {
+            let message = "--out and --sheet are the same file; choose two names";
+            return Err(CliError::Usage(message.to_owned()));
         }
         Ok(())
     }
 
+    /// Returns the pairs to measure: each row in one or both directions.
     fn jobs<'a>(&self, table: &'a PairTable) -> Vec<PairJob<'a>> {
         let directions: &[bool] = if self.both { &[false, true] } else { &[false] };
-        let of_row = |row| {
+        let jobs_of_row = |row| {
             let job = move |&backward| PairJob { row, backward };
             directions.iter().map(job)
         };
-        table.rows.iter().flat_map(of_row).collect()
+        table.rows.iter().flat_map(jobs_of_row).collect()
     }
 
-    /// What came of the jobs, in their order; without those that were not done
-    /// before nobody wanted them any more.
-    fn work<'a>(
+    /// Measures the pairs and returns the results in the order of `jobs`, without the jobs that
+    /// were not finished when the work was cancelled.
+    fn measure_all<'a>(
         &self,
         jobs: &'a [PairJob<'a>],
         partial: &PartialTable,
@@ -202,47 +211,48 @@ impl PairBatchArgs {
         const STAGE: &str = "checking pairs";
         let finished = AtomicUsize::new(0);
         progress.report(STAGE, 0.0);
-        let one = |job| {
+        let measure = |job| {
             if progress.is_cancelled() {
                 return None;
             }
-            let done = self.one(job, measuring, progress);
-            // One that was cut short says so, which is not what became of it.
-            if progress.is_cancelled() && done.report.is_err() {
+            let result = self.measure_one(job, measuring, progress);
+            // The error is probably the cancellation, not a failure of the pair.
+            if progress.is_cancelled() && result.report.is_err() {
                 return None;
             }
-            partial.keep(&done.row());
+            partial.keep(&result.row());
             let count = finished.fetch_add(1, Ordering::Relaxed) + 1;
             progress.report(STAGE, count as f64 / jobs.len() as f64);
-            Some(done)
+            Some(result)
         };
         if self.one_by_one {
-            return jobs.iter().filter_map(one).collect();
+            return jobs.iter().filter_map(measure).collect();
         }
-        // One at a time: pairs take unlike long, and a core with none is idle.
-        jobs.par_iter().with_max_len(1).filter_map(one).collect()
+        // Each core takes one pair at a time, because some pairs take much longer than others.
+        jobs.par_iter().with_max_len(1).filter_map(measure).collect()
     }
 
-    fn one<'a>(
+    /// Measures a pair. An error or a panic becomes the result of the pair.
+    fn measure_one<'a>(
         &self,
         job: &'a PairJob<'a>,
         measuring: &MeasuringArgs,
         progress: &dyn Progress,
     ) -> PairResult<'a> {
-        let measured = || {
+        let measure = || {
             let (opened, report) = measuring.of_pair(&job.inputs()?, &QuietProgress(progress))?;
             let strip = self.sheet.is_some().then(|| strip(&opened, &report, job));
             Ok((report.without_samples(), strip))
         };
-        // One pair must not end the work on all others, whatever it is.
-        let caught = catch_unwind(AssertUnwindSafe(measured));
-        let (report, strip) = match caught.unwrap_or_else(|panic| Err(of_panic(&*panic))) {
+        // A panic in one pair must not stop the work on the others.
+        let outcome = catch_unwind(AssertUnwindSafe(measure));
+        let (report, strip) = match outcome.unwrap_or_else(|panic| Err(panic_error(&*panic))) {
             Ok((report, strip)) => (Ok(report), strip),
             Err(error) => {
-                // For a cell of the table.
+                // A cell of the table holds one line.
                 let reason = SanitizedLine(error).to_string();
-                let failed = || PairStrip::failed(&job.name(), &format!("failed: {reason}"));
-                let strip = self.sheet.is_some().then(failed);
+                let failed_strip = || PairStrip::failed(&job.name(), &format!("failed: {reason}"));
+                let strip = self.sheet.is_some().then(failed_strip);
                 (Err(reason), strip)
             }
         };
@@ -250,29 +260,34 @@ impl PairBatchArgs {
     }
 }
 
-/// Says how far the work came, and where that is.
-fn ended(partial: PartialTable, of: usize) -> Result<String, CliError> {
+/// Returns a message that says how many of `total` rows are finished and where they are saved.
+/// Deletes the partial table if it has no rows.
+fn cancelled_message(partial: PartialTable, total: usize) -> Result<String, CliError> {
     let count = partial.rows();
     if count == 0 {
         partial.remove().map_err(CliError::failed)?;
-        return Ok(format!("cancelled before one of {of} pairs was done"));
+        return Ok(format!(
+            "cancelled before any of the {total} pairs was measured"
+        ));
     }
-    let kept = partial.path.display();
+    let path = partial.path.display();
     Ok(format!(
-        "cancelled; {count} of {of} rows are kept in `{kept}`"
+        "cancelled; {count} of {total} rows are saved in `{path}`"
     ))
 }
 
-fn of_panic(panic: &(dyn Any + Send)) -> CliError {
+/// Returns the error for a panic while a pair was measured.
+fn panic_error(panic: &(dyn Any + Send)) -> CliError {
     let text = panic.downcast_ref::<&str>().copied();
-    let words = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    let message = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
     CliError::Failed(format!(
         "internal error ({}); please report it with both designs",
-        words.unwrap_or("no words")
+        message.unwrap_or("no message")
     ))
 }
 
 impl PairResult<'_> {
+    /// Returns the row of the report, as a line of CSV.
     fn row(&self) -> Vec<u8> {
         let report = self.report.as_ref().map_err(String::as_str);
         rows::row(self.job.row, self.job.backward, report)
@@ -280,7 +295,7 @@ impl PairResult<'_> {
 }
 
 impl PairJob<'_> {
-    /// Source and target, the way round that they are taken.
+    /// Returns the paths of the designs at t = 0 and t = 1 in this direction.
     fn pair(&self) -> Result<[&Path; 2], &PairRowError> {
         let [source, target] = self.row.pair.as_ref()?;
         Ok(match self.backward {
@@ -294,7 +309,7 @@ impl PairJob<'_> {
         Ok(InputArgs::pair(source, target))
     }
 
-    /// The pair by the names of its designs.
+    /// Returns the names of both designs, or the line of a row without a pair.
     fn name(&self) -> String {
         match self.pair() {
             Ok(pair) => pair
@@ -305,7 +320,8 @@ impl PairJob<'_> {
     }
 }
 
-/// Passes a cancel on, and keeps the many stages of many pairs to itself.
+/// A [`Progress`] for one pair: forwards cancellation, but not the stages, because many pairs are
+/// measured at the same time.
 struct QuietProgress<'a>(&'a dyn Progress);
 
 impl Progress for QuietProgress<'_> {
@@ -316,16 +332,18 @@ impl Progress for QuietProgress<'_> {
     }
 }
 
+/// Returns the file type of the contact sheet.
 fn sheet_kind(path: &Path) -> Result<StillKind, CliError> {
     match ExportTarget::of_path(path) {
         Ok(ExportTarget::Still(kind, _)) => Ok(kind),
         _ => Err(CliError::Usage(format!(
-            "`{}` is no picture: end --sheet in .png or .svg",
+            "cannot write a contact sheet as `{}`; choose a name that ends in .png or .svg",
             path.display()
         ))),
     }
 }
 
+/// Returns the strip of a pair for the contact sheet.
 fn strip(opened: &OpenedPair, report: &PairReport, job: &PairJob<'_>) -> PairStrip {
     let style: &TransitionStyle = &opened.loaded.project.style;
     let times = even_times(0.0, 1.0, STRIP_FRAMES);
@@ -333,9 +351,14 @@ fn strip(opened: &OpenedPair, report: &PairReport, job: &PairJob<'_>) -> PairStr
         .with_remark(&report.verdict.words, !report.verdict.findings.is_empty())
 }
 
-/// Writes the sheet; words about strips that had no room.
-fn write_sheet(done: &[PairResult<'_>], kind: StillKind, path: &Path) -> Result<String, CliError> {
-    let strips: Vec<PairStrip> = done.iter().filter_map(|d| d.strip.clone()).collect();
+/// Writes the contact sheet. Returns a remark if there was no room for all strips, else an empty
+/// text.
+fn write_sheet(
+    results: &[PairResult<'_>],
+    kind: StillKind,
+    path: &Path,
+) -> Result<String, CliError> {
+    let strips: Vec<PairStrip> = results.iter().filter_map(|r| r.strip.clone()).collect();
     let ground = Some(TransitionStyle::default().ground);
     let (drawing, shown) = pair_sheet(&strips, ground).map_err(CliError::failed)?;
     write_still(&drawing, kind, path).map_err(CliError::failed)?;

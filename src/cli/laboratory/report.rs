@@ -1,4 +1,6 @@
-//! Everything that is measured of one transition.
+//! Builds a transition and measures it: mesh, film, defects with causes and fixes, and times.
+//!
+//! The report is data for JSON and CSV; `text` formats it for people.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -19,21 +21,22 @@ use crate::transition::{Transition, TransitionNote, TransitionProof};
 use crate::warp::WarpKind;
 use crate::work::progress::{OverallProgress, Progress, ProgressSpan};
 
-/// Frames whose times are taken: an odd number has a middle, and the first few,
-/// which find cold caches, are far from it.
+/// Number of frames that are timed. The number is odd, so the median is one of the times; it is
+/// large enough that the first, slower frames do not affect the median (heuristic).
 const TIMED_FRAMES: usize = 15;
 
-/// How much is done once the transition is built, as it is told.
-const BUILT: f64 = 0.6;
+/// Progress reported once the transition is built, in [0, 1] (heuristic).
+const BUILT_FRACTION: f64 = 0.6;
 
-/// How transitions are built and measured.
+/// Options for building and measuring transitions.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct MeasuringArgs {
-    /// At how many values of t, evenly from 0 to 1, the film is measured
+    /// Number of values of t, evenly spaced from 0 to 1, at which the film is measured
     #[arg(long, value_name = "N", default_value_t = 65, value_parser = clap::value_parser!(u64).range(2..=10_000))]
     samples: u64,
 
-    /// Prove that nothing folds and no outlines meet at any t, or say when they may
+    /// Prove that no face folds and no outlines meet at any t, or report the first t at which this
+    /// is uncertain
     #[arg(long)]
     prove: bool,
 
@@ -42,80 +45,86 @@ pub(in crate::cli) struct MeasuringArgs {
 }
 
 impl MeasuringArgs {
-    /// How transitions are built.
+    /// Returns the options for building transitions.
     pub fn method(&self) -> &MethodArgs {
         &self.method
     }
 
-    /// As [`Self::of`], of what is no sequence.
+    /// Builds and measures the transition between two designs; see [`Self::of`].
     pub fn of_pair(
         &self,
         inputs: &InputArgs,
         progress: &dyn Progress,
     ) -> Result<(OpenedPair, PairReport), CliError> {
         let first = self.of(inputs, progress)?.into_iter().next();
-        Ok(first.unwrap_or_else(|| unreachable!("there is a leg")))
+        Ok(first.unwrap_or_else(|| unreachable!("no segment")))
     }
 
-    /// Builds a transition, or each leg of a sequence, and measures it.
+    /// Builds and measures a transition, or each segment of a sequence.
+    ///
+    /// # Errors
+    /// A design cannot be read, a transition cannot be built, or the work was cancelled.
     pub fn of(
         &self,
         inputs: &InputArgs,
         progress: &dyn Progress,
     ) -> Result<Vec<(OpenedPair, PairReport)>, CliError> {
         let whole = OverallProgress::new(progress);
-        let building = ProgressSpan::new(&whole, 0.0, BUILT);
+        let building = ProgressSpan::new(&whole, 0.0, BUILT_FRACTION);
         let clock = StageClock::new(&building);
-        let measuring = ProgressSpan::new(&whole, BUILT, 1.0);
-        let mut all = Vec::new();
+        let measuring = ProgressSpan::new(&whole, BUILT_FRACTION, 1.0);
+        let mut measured = Vec::new();
         inputs.open_each(&self.method, &clock, |opened| {
             let samples = self.samples as usize;
             let mut report = PairReport::of(&opened, clock.stages(), samples, &measuring)?;
             if self.prove {
                 report.proof = ProofReport::of(&opened.transition, progress)?;
             }
-            all.push((opened, report));
+            measured.push((opened, report));
             Ok(())
         })?;
-        Ok(all)
+        Ok(measured)
     }
 }
 
-/// Everything that is measured.
+/// All measures of one transition.
 #[derive(Debug, Serialize)]
 pub(in crate::cli) struct PairReport {
     pub title: String,
     pub warp: WarpKind,
     pub content: ContentKind,
     pub designs: Vec<DesignReport>,
-    /// Vertices of the common triangulation.
+    /// Number of vertices of the common triangulation; `None` without one.
     pub vertices: Option<usize>,
-    /// Its faces.
+    /// Number of faces of the common triangulation; `None` without one.
     pub faces: Option<usize>,
-    /// Width and height of the fields' grid.
+    /// Width and height of the grid of distance fields, in cells; `None` without fields.
     pub grid: Option<[u32; 2]>,
     pub seconds: ReportSeconds,
     pub verdict: VerdictReport,
     pub mesh: Option<MeshReport>,
     pub film: FilmReport,
-    /// What holds at every t, where that was asked for and there are faces.
+    /// Proof that the film has no defects at any t; `None` unless `--prove` was given and the
+    /// transition has faces.
     pub proof: Option<ProofReport>,
-    /// How many samples the film had, even if they were forgotten.
+    /// Number of samples of the film, also after [`Self::without_samples`].
     #[serde(skip)]
     pub samples: usize,
 }
 
+/// Description of one design.
 #[derive(Debug, Serialize)]
 pub(in crate::cli) struct DesignReport {
     pub name: String,
+    /// Kind of the design: outline, mesh or truss.
     pub kind: &'static str,
-    /// Points of its outline, vertices of its mesh or nodes of its truss.
+    /// Number of points of the outline, vertices of the mesh, or nodes of the truss.
     pub points: usize,
-    /// What was repaired or left out while it was read.
+    /// Notes on what was repaired or ignored on import.
     pub notes: Vec<String>,
 }
 
-/// How long each stage took.
+/// Durations in seconds.
 #[derive(Debug, Serialize)]
 pub(in crate::cli) struct ReportSeconds {
     /// Reading and importing the designs.
@@ -123,65 +132,70 @@ pub(in crate::cli) struct ReportSeconds {
     /// Matching boundaries and parts.
     #[serde(rename = "match")]
     pub matching: f64,
-    /// Making a common triangulation.
+    /// Stages that are neither matching nor listed in `clock`: for outlines, mostly the common
+    /// triangulation. Includes reading the designs.
     pub triangulate: f64,
-    /// Building the transition, all of it.
+    /// Building the transition, in total.
     pub build: f64,
-    /// Moving a frame to another t, the median of some.
+    /// Moving a frame to another t: the median of several times.
     pub frame: f64,
-    /// Evaluating it as polygons, likewise.
+    /// Computing the polygons of a frame: the median of several times.
     pub figure: f64,
-    /// Measuring all that is reported here.
+    /// Measuring the transition, without the proof.
     pub measure: f64,
-    /// The stages of building by name.
+    /// Duration of each stage of building, by its name.
     pub stages: StageDurations,
 }
 
-/// What is proved, with its words.
+/// Result of the proof that the film has no folds and no crossings at any t.
 #[derive(Debug, Serialize)]
 pub(in crate::cli) struct ProofReport {
+    /// The result in words.
     pub words: String,
-    /// How long it took to record the film and to prove it.
+    /// Duration of recording the film and proving it, in seconds.
     pub seconds: f64,
-    /// None where there is no film.
+    /// `None` if the film could not be recorded.
     #[serde(flatten)]
     pub proved: Option<TransitionProof>,
 }
 
 impl ProofReport {
+    /// Records the film and tries to prove it; `None` if the transition has no faces.
     fn of(transition: &Transition, progress: &dyn Progress) -> Result<Option<Self>, CliError> {
         let start = Instant::now();
-        let proved = match transition.prove(&RecordingOptions::default(), progress) {
+        let result = match transition.prove(&RecordingOptions::default(), progress) {
             Err(RecordingError::Cancelled(cancelled)) => return Err(CliError::failed(cancelled)),
-            proved => proved,
+            result => result,
         };
-        let words = match &proved {
+        let words = match &result {
             Ok(None) => return Ok(None),
-            Ok(Some(proved)) => proved.to_string(),
+            Ok(Some(proof)) => proof.to_string(),
             Err(error) => format!("not proved: {error}"),
         };
         Ok(Some(Self {
             words,
             seconds: start.elapsed().as_secs_f64(),
-            proved: proved.ok().flatten(),
+            proved: result.ok().flatten(),
         }))
     }
 
-    /// The first t at which it is not proved.
+    /// Returns the first t at which folds or crossings are not excluded; `None` if there is none.
     pub fn first_t(&self) -> Option<f64> {
         self.proved.as_ref()?.first_failure_time()
     }
 }
 
-/// The verdict with its words.
+/// Defects of a film, in words and as data.
 #[derive(Debug, Serialize)]
 pub(in crate::cli) struct VerdictReport {
+    /// All defects in one line, or a text such as "no folds, no crossings".
     pub words: String,
     pub findings: Vec<FindingReport>,
-    /// What was done otherwise than asked while the transition was built.
+    /// Notes on what was done differently from what was requested.
     pub notes: Vec<TransitionNote>,
 }
 
+/// One defect: the texts for people, and the data.
 #[derive(Debug, Serialize)]
 pub(in crate::cli) struct FindingReport {
     pub words: String,
@@ -194,7 +208,7 @@ pub(in crate::cli) struct FindingReport {
 impl VerdictReport {
     fn of(verdict: Verdict) -> Self {
         let words = verdict.headline();
-        let told = |finding: Finding| FindingReport {
+        let with_texts = |finding: Finding| FindingReport {
             words: finding.headline(),
             cause_words: finding.cause.to_string(),
             remedy_words: finding.remedy.to_string(),
@@ -202,14 +216,18 @@ impl VerdictReport {
         };
         Self {
             words,
-            findings: verdict.findings.into_iter().map(told).collect(),
+            findings: verdict.findings.into_iter().map(with_texts).collect(),
             notes: verdict.notes,
         }
     }
 }
 
 impl PairReport {
-    /// Measures a transition at so many t.
+    /// Measures a transition at `samples` evenly spaced t. `stages` holds the durations of the
+    /// stages of building.
+    ///
+    /// # Errors
+    /// The work was cancelled.
     pub fn of(
         opened: &OpenedPair,
         stages: StageDurations,
@@ -221,10 +239,10 @@ impl PairReport {
         let start = Instant::now();
         let mesh = transition.compatible();
         let mesh_report = mesh.and_then(measure::mesh_report);
-        let [filming, judging] =
+        let [sampling, checking] =
             [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| ProgressSpan::new(progress, a, b));
-        let film = measure::film_report(transition, samples, &filming).map_err(CliError::failed)?;
-        let verdict = Verdict::of_film(transition, &film, &judging).map_err(CliError::failed)?;
+        let film = measure::film_report(transition, samples, &sampling).map_err(CliError::failed)?;
+        let verdict = Verdict::of_film(transition, &film, &checking).map_err(CliError::failed)?;
         let seconds = ReportSeconds {
             import: opened.import_time.as_secs_f64(),
             matching: clock::matching(&stages),
@@ -239,7 +257,7 @@ impl PairReport {
             title: opened.title(),
             warp: transition.method().warp(),
             content: transition.method().content(),
-            designs: transition.designs().iter().map(of_design).collect(),
+            designs: transition.designs().iter().map(describe).collect(),
             vertices: mesh.map(|mesh| mesh.source().len()),
             faces: mesh.map(|mesh| mesh.faces().len()),
             grid: match transition.content() {
@@ -258,14 +276,16 @@ impl PairReport {
         })
     }
 
-    /// Without the samples, which take most of the room: one in a long table.
+    /// Removes the samples of the film. They need most of the memory, and a table may have many
+    /// pairs.
     pub fn without_samples(mut self) -> Self {
         self.film.samples = Vec::new();
         self
     }
 }
 
-fn of_design(design: &Arc<Design>) -> DesignReport {
+/// Returns the description of a design.
+fn describe(design: &Arc<Design>) -> DesignReport {
     let (kind, points) = match &design.form {
         DesignForm::Outline(regions) => {
             let points = regions.rings().map(|ring| ring.points().len()).sum();
@@ -282,22 +302,24 @@ fn of_design(design: &Arc<Design>) -> DesignReport {
     }
 }
 
-/// Median times of moving a frame and of evaluating it.
+/// Measures the median time to move a frame to another t, and to compute its polygons.
 fn frame_times(transition: &Transition) -> (Duration, Duration) {
     let mut frame = transition.frame(0.0);
-    let timed = (0..TIMED_FRAMES).map(|i| {
+    let times = (0..TIMED_FRAMES).map(|i| {
         let start = Instant::now();
         frame.seek((i as f64 + 0.5) / TIMED_FRAMES as f64);
-        let moved = start.elapsed();
+        let seek_time = start.elapsed();
         let start = Instant::now();
-        // Nobody looks at it, so that it might as well be left out.
+        // The polygons are not used, so the compiler could remove their computation.
         std::hint::black_box(frame.figure());
-        (moved, start.elapsed())
+        (seek_time, start.elapsed())
     });
-    let (frames, figures): (Vec<_>, Vec<_>) = timed.unzip();
+    let (frames, figures): (Vec<_>, Vec<_>) = times.unzip();
     (median(frames), median(figures))
 }
 
+/// Returns the median of an odd number of times. For an even number, returns the larger of the two
+/// middle times; without times, 0.
 fn median(mut times: Vec<Duration>) -> Duration {
     times.sort_unstable();
     times.get(times.len() / 2).copied().unwrap_or_default()

@@ -1,10 +1,9 @@
-//! The report on a table of pairs as CSV, and where its rows are kept until it
-//! is whole.
+//! Rows of the report on a table of pairs as CSV, and the file in which finished rows are saved.
 //!
-//! A row is written as soon as it is known, in `report.partial.csv` beside
-//! `report.csv`, so that the work that was done is there however the program
-//! ends. Rows stand in the order in which they became known, whole ones only. An
-//! earlier file of that name stays, and the next one has a number.
+//! As soon as a pair is measured, its row is written to `report.partial.csv` next to `report.csv`,
+//! so finished work is not lost if the program is interrupted. The file contains complete rows
+//! only, in the order in which they were finished. An existing file of this name is not replaced;
+//! the next one gets a number.
 
 use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
@@ -15,15 +14,17 @@ use super::columns;
 use super::report::PairReport;
 use super::table::{PairTable, PairTableRow};
 
-/// The names of all columns: those of the table, then the report's.
+/// Returns the header of the report as a line of CSV: the headings of the input table, `direction`,
+/// `status`, and the headings of the measures.
 pub(super) fn header(table: &PairTable) -> Vec<u8> {
-    let own = [columns::DIRECTION, columns::STATUS].map(str::to_owned);
+    let result = [columns::DIRECTION, columns::STATUS].map(str::to_owned);
     let measures = columns::ALL.iter().map(columns::ReportColumn::heading);
-    let names = table.header.iter().cloned().chain(own).chain(measures);
-    line(names.map(String::into_bytes))
+    let headings = table.header.iter().cloned().chain(result).chain(measures);
+    line(headings.map(String::into_bytes))
 }
 
-/// What became of a row of the table.
+/// Returns the row of a pair as a line of CSV: the cells of the input table, the direction, the
+/// status, and the measures. `report` is an error message if the pair failed.
 pub(super) fn row(
     row: &PairTableRow,
     backward: bool,
@@ -35,47 +36,49 @@ pub(super) fn row(
         Ok(report) => column.cell(report),
         Err(_) => String::new(),
     });
-    let own = [direction, status].map(str::to_owned).into_iter();
-    let own = own.chain(measures).map(String::into_bytes);
-    line(row.cells.iter().cloned().chain(own))
+    let result = [direction, status].map(str::to_owned).into_iter();
+    let report_cells = result.chain(measures).map(String::into_bytes);
+    line(row.cells.iter().cloned().chain(report_cells))
 }
 
+/// Returns cells as a line of CSV.
 fn line(cells: impl Iterator<Item = Vec<u8>>) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    // Into memory, which refuses nothing.
+    // Writing to memory does not fail.
     writer.write_record(cells).unwrap_or_default();
     writer.into_inner().unwrap_or_default()
 }
 
-/// Rows of a report that is not whole yet.
+/// File with the finished rows of a report, until all pairs are measured.
 pub(super) struct PartialTable {
-    /// Where they are.
+    /// Path of the file.
     pub path: PathBuf,
-    kept: Mutex<SavedRows>,
+    saved: Mutex<SavedRows>,
 }
 
+/// The open file and the number of rows in it, without the header.
 struct SavedRows {
     file: File,
-    rows: usize,
+    count: usize,
 }
 
 impl PartialTable {
-    /// Begins a new file beside the place of the report.
+    /// Creates a new file next to the path of the report, and writes the header.
     ///
     /// # Errors
-    /// It cannot be written, and neither can the report.
+    /// The file cannot be created or written. The report could not be written either.
     pub fn begin(report: &Path, header: &[u8]) -> io::Result<Self> {
         for number in 1u32.. {
-            let path = partial_of(report, number);
+            let path = partial_path(report, number);
             match File::create_new(&path) {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
                 Ok(mut file) => {
-                    let begun = file.write_all(header);
-                    let kept = Mutex::new(SavedRows { file, rows: 0 });
-                    let partial = Self { path, kept };
-                    // Without rows it is of no use to anybody.
-                    return match begun {
+                    let written = file.write_all(header);
+                    let saved = Mutex::new(SavedRows { file, count: 0 });
+                    let partial = Self { path, saved };
+                    // A file without a header is of no use.
+                    return match written {
                         Ok(()) => Ok(partial),
                         Err(error) => partial.remove().and(Err(error)),
                     };
@@ -85,42 +88,45 @@ impl PartialTable {
         Err(io::ErrorKind::AlreadyExists.into())
     }
 
-    /// Keeps a row, if there is room for it: else it is in the report alone.
+    /// Appends a row. If it cannot be written, for example because the disk is full, the row is
+    /// only in the final report.
     pub fn keep(&self, row: &[u8]) {
-        // Rows are whole whenever the lock is free, even after a panic.
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let SavedRows { file, rows } = &mut *kept;
+        // Rows are complete whenever the lock is free, even after a panic.
+        let mut saved = self.saved.lock().unwrap_or_else(PoisonError::into_inner);
+        let SavedRows { file, count } = &mut *saved;
         let Ok(end) = file.stream_position() else {
             return;
         };
         match file.write_all(row) {
-            Ok(()) => *rows += 1,
+            Ok(()) => *count += 1,
             Err(_) => {
-                let back = file
+                // Removes the part of the row that was written.
+                let restored = file
                     .set_len(end)
                     .and_then(|()| file.seek(SeekFrom::Start(end)));
-                back.map(drop).unwrap_or_default();
+                restored.map(drop).unwrap_or_default();
             }
         }
     }
 
-    /// How many rows are there.
+    /// Returns the number of saved rows.
     pub fn rows(&self) -> usize {
-        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.rows
+        let saved = self.saved.lock().unwrap_or_else(PoisonError::into_inner);
+        saved.count
     }
 
-    /// Takes it away, once the report is there or where nothing was kept.
+    /// Deletes the file, because the report has been written or no row was saved.
     ///
     /// # Errors
-    /// It stays.
+    /// The file cannot be deleted.
     pub fn remove(self) -> io::Result<()> {
         fs::remove_file(self.path)
     }
 }
 
-/// `report.partial.csv` for `report.csv`, then `report.partial-2.csv`.
-fn partial_of(report: &Path, number: u32) -> PathBuf {
+/// Returns the path of a partial table: `report.partial.csv` for `report.csv` and number 1,
+/// `report.partial-2.csv` for number 2.
+fn partial_path(report: &Path, number: u32) -> PathBuf {
     let mut name = report.file_stem().unwrap_or_default().to_owned();
     name.push(".partial");
     if number > 1 {
@@ -138,16 +144,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_earlier_file_stays_and_the_next_one_has_a_number() {
+    fn an_existing_partial_table_is_not_replaced() {
         let folder = tempfile::tempdir().expect("a folder");
         let report = folder.path().join("a.b.csv");
         for name in ["a.b.partial.csv", "a.b.partial-2.csv"] {
-            let partial = PartialTable::begin(&report, b"x\n").expect("begun");
+            let partial = PartialTable::begin(&report, b"x\n").expect("created");
             assert_eq!(partial.path, folder.path().join(name));
             partial.keep(b"1\n");
             assert_eq!(partial.rows(), 1);
             assert_eq!(fs::read(&partial.path).expect("read"), b"x\n1\n");
         }
-        assert_eq!(partial_of("r".as_ref(), 1), Path::new("r.partial"));
+        assert_eq!(partial_path("r".as_ref(), 1), Path::new("r.partial"));
     }
 }

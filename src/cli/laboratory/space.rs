@@ -1,4 +1,5 @@
-//! A space of many designs, measured, as data and for people.
+//! Report of `check --map` on a design space, as data for JSON and as text: defects and distortion
+//! of its blends, and times.
 
 use std::time::{Duration, Instant};
 
@@ -10,104 +11,111 @@ use crate::geometry::DVec2;
 use crate::measure::{BlendReport, SpaceReport};
 use crate::space::DesignSpace;
 
-/// Blends whose times are taken: an odd number has a middle.
-const TIMED: usize = 101;
+/// Number of blends that are timed; odd, so that the median is one of the times (heuristic).
+const TIMED_BLENDS: usize = 101;
 
-/// Pixels along each side of a blend of pictures that is timed.
+/// Side length of the square picture that is computed when a blend of pictures is timed, in pixels
+/// (heuristic).
 const PICTURE_PX: u32 = 400;
 
-/// Room for what stands at the left.
-const NAMES: usize = 28;
+/// Width of the first column, in characters (heuristic).
+const NAME_WIDTH: usize = 28;
 
-/// Everything that is measured of a space, and how long it took.
+/// Measures of a design space, and times in seconds.
 #[derive(Debug, Serialize)]
 pub(in crate::cli) struct SpaceMeasurement {
     #[serde(flatten)]
     report: SpaceReport,
-    /// For matching, triangulating and factoring, or for the fields.
+    /// Time to build the space: matching, triangulation and factorisation, or distance fields.
     build_seconds: f64,
-    /// For one blend from weights to outlines, or to a picture, the median of many.
+    /// Time to compute one blend from its weights, as outlines or as a picture: the median of
+    /// several times.
     blend_seconds: f64,
-    /// Pictures are what is seen: nothing of them folds or has an area.
+    /// Whether the space blends pictures. They have no folds, crossings or areas to report.
     are_pictures: bool,
 }
 
 impl SpaceMeasurement {
-    /// What was measured of a space that took so long to build.
-    pub fn new(space: &DesignSpace, report: SpaceReport, build: Duration) -> Self {
+    /// Combines the report on a space with the time to build it, and measures the time of a blend.
+    pub fn new(space: &DesignSpace, report: SpaceReport, build_time: Duration) -> Self {
         Self {
             report,
-            build_seconds: build.as_secs_f64(),
-            blend_seconds: timed(space).as_secs_f64(),
+            build_seconds: build_time.as_secs_f64(),
+            blend_seconds: median_blend_time(space).as_secs_f64(),
             are_pictures: space.is_of_pictures(),
         }
     }
 
-    /// For people.
+    /// Returns the report as text for people.
     pub fn text(&self) -> String {
         let report = &self.report;
         let mut lines = NumberLines::default();
         lines.line(&report.designs.join(", "));
         lines.gap();
-        let how = match (report.vertices, report.faces) {
+        let method = match (report.vertices, report.faces) {
             (Some(vertices), Some(faces)) => {
                 format!("rigid parts: one mesh of {vertices} vertices and {faces} faces")
             }
             _ if self.are_pictures => "pictures".to_owned(),
             _ => "distance fields".to_owned(),
         };
-        lines.line(&how);
+        lines.line(&method);
         report.notes.iter().for_each(|note| lines.line(note));
         lines.gap();
         if self.are_pictures {
-            lines.cells(("", NAMES), ["unlike"]);
+            lines.cells(("", NAME_WIDTH), ["difference"]);
         } else {
-            let heads = ["unlike", "folds", "crossings", "conformal", "area off"];
-            lines.cells(("worst of nine blends", NAMES), heads);
+            let heads = ["difference", "folds", "crossings", "conformal", "area error"];
+            lines.cells(("worst of nine blends", NAME_WIDTH), heads);
         }
         for edge in &report.edges {
             let [a, b] = edge.designs.map(|k| report.designs[k].as_str());
             let name = format!("{a} – {b}");
-            let unlike = std::iter::once(short(edge.unlike));
+            let difference = std::iter::once(short(edge.unlike));
             if self.are_pictures {
-                lines.cells((&name, NAMES), unlike);
+                lines.cells((&name, NAME_WIDTH), difference);
             } else {
-                lines.cells((&name, NAMES), unlike.chain(cells(&edge.worst)));
+                lines.cells((&name, NAME_WIDTH), difference.chain(cells(&edge.worst)));
             }
         }
         if !self.are_pictures {
-            self.all_over(&mut lines);
+            self.add_blend_statistics(&mut lines);
         }
         lines.gap();
-        let what = match self.are_pictures {
-            true => format!("a blend of {PICTURE_PX} pixels"),
+        let blend = match self.are_pictures {
+            true => format!("a blend of {PICTURE_PX} x {PICTURE_PX} pixels"),
             false => "a blend".to_owned(),
         };
         lines.line(&format!(
-            "built in {} s; {what} takes {} ms",
+            "built in {} s; {blend} takes {} ms",
             short(self.build_seconds),
             short(1e3 * self.blend_seconds)
         ));
         lines.0
     }
 
-    /// What is wrong with blends in the middle and all over.
-    fn all_over(&self, lines: &mut NumberLines) {
+    /// Adds the measures of the blend with equal weights and of the blends spread over all weights.
+    fn add_blend_statistics(&self, lines: &mut NumberLines) {
         let report = &self.report;
-        let none = || std::iter::once(String::new());
-        lines.cells(("the middle", NAMES), none().chain(cells(&report.middle)));
+        // These rows have no difference between two designs.
+        let empty = || std::iter::once(String::new());
+        lines.cells(
+            ("equal weights", NAME_WIDTH),
+            empty().chain(cells(&report.middle)),
+        );
         let all = &report.all_over;
-        let name = format!("worst of {} all over", all.blends);
-        lines.cells((&name, NAMES), none().chain(cells(&all.worst)));
+        let name = format!("worst over all {} blends", all.blends);
+        lines.cells((&name, NAME_WIDTH), empty().chain(cells(&all.worst)));
         lines.gap();
         let [folded, crossed] = [all.folded, all.crossed];
         lines.line(&format!(
-            "of {} blends all over, {folded} fold and {crossed} cross themselves",
+            "{} blends spread over all weights: {folded} with folds, {crossed} with crossings",
             all.blends
         ));
     }
 }
 
+/// Returns the cells of a blend: folds, crossings, conformal distortion and area error.
 fn cells(blend: &BlendReport) -> [String; 4] {
     [
         blend.folds.to_string(),
@@ -117,8 +125,8 @@ fn cells(blend: &BlendReport) -> [String; 4] {
     ]
 }
 
-/// The median time of a blend, from weights to outlines or to a picture.
-fn timed(space: &DesignSpace) -> Duration {
+/// Measures the median time to compute a blend from its weights, as outlines or as a picture.
+fn median_blend_time(space: &DesignSpace) -> Duration {
     let count = space.designs().len();
     let mut frame = space.frame();
     let bounds = space.bounds();
@@ -127,9 +135,9 @@ fn timed(space: &DesignSpace) -> Duration {
         corner: DVec2::new(bounds.min.x, bounds.max.y),
         pixel_size: bounds.size().max_element() / f64::from(PICTURE_PX),
     };
-    let mut times: Vec<Duration> = (0..TIMED)
+    let mut times: Vec<Duration> = (0..TIMED_BLENDS)
         .map(|k| {
-            // From one corner to the next, and never the same twice.
+            // Successive blends favour different designs, so no blend follows itself.
             let mut weights = vec![0.5 / count as f64; count];
             weights[k % count] += 0.5;
             let start = Instant::now();
@@ -139,5 +147,5 @@ fn timed(space: &DesignSpace) -> Duration {
         })
         .collect();
     times.sort();
-    times[TIMED / 2]
+    times[TIMED_BLENDS / 2]
 }

@@ -1,4 +1,4 @@
-//! What came out of a table of pairs, in short.
+//! Summary of `check --pairs`: counts of failures and defects, and statistics of the main measures.
 
 use serde::Serialize;
 
@@ -8,133 +8,146 @@ use super::histogram::Histogram;
 use super::number::{NumberLines, short};
 use super::report::PairReport;
 
-/// The fewest values whose spread is drawn: of fewer, median and worst say as
-/// much.
-const ENOUGH: usize = 10;
+/// Minimum number of values for which a histogram is shown. For fewer values, the median and the
+/// worst value say as much (heuristic).
+const MIN_HISTOGRAM_VALUES: usize = 10;
 
-/// The whole table in short.
+/// Width of the labels, in characters (derived: the longest label has 43).
+const LABEL_WIDTH: usize = 44;
+
+/// Name of the line with the number of pairs that were not measured.
+const NOT_MEASURED: &str = "not measured";
+
+/// Summary of all pairs of a table.
 #[derive(Debug, Serialize)]
 pub(in crate::cli) struct PairSummary {
-    /// Rows, each direction of its own.
+    /// Number of pairs; with `--both`, each direction counts.
     pub pairs: usize,
-    /// Of them those that could not be built.
+    /// Number of pairs that could not be measured because of an error.
     pub failures: usize,
-    /// Of them those that were not come to before the work was ended.
+    /// Number of pairs that were not measured because the work was cancelled.
     pub unfinished: usize,
-    /// Of them those with a fold at some t.
+    /// Number of pairs with folded faces at a sampled t.
     pub with_folds: usize,
-    /// Of them those whose boundary crosses itself at some t.
+    /// Number of pairs whose boundary crosses itself at a sampled t.
     pub with_crossings: usize,
-    /// Of them those with more pieces or holes on the way than at the ends.
+    /// Number of pairs with more pieces or holes at a sampled t than at t = 0 and t = 1.
     pub with_tears: usize,
-    /// Medians, worst tenths and worst values of the main measures.
+    /// Statistics of the main measures, in the order of the columns.
     pub measures: Vec<MeasuredPairs>,
 }
 
+/// Statistics of one measure over all pairs that have it.
 #[derive(Debug, Serialize)]
 pub(in crate::cli) struct MeasuredPairs {
+    /// Heading of the measure's column.
     pub column: String,
+    /// Label of the measure with its unit, for people.
     #[serde(skip)]
-    words: String,
+    label: String,
     pub median: f64,
-    /// What a tenth of the pairs are worse than.
+    /// Value that a tenth of the pairs exceed, or fall below where large values are better.
     pub worst_tenth: f64,
     pub worst: f64,
+    /// Histogram of the values; only for some measures and if there are enough values.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spread: Option<Histogram>,
 }
 
 impl PairSummary {
-    /// Of the report on each pair, `None` for those that failed, and of the number
-    /// of those that there are no reports on.
+    /// Summarises the reports on all measured pairs, with `None` for each pair that failed.
+    /// `unfinished` is the number of pairs that were not measured.
     pub fn of<'a>(
         reports: impl IntoIterator<Item = Option<&'a PairReport>>,
         unfinished: usize,
     ) -> Self {
         let rows: Vec<Option<&PairReport>> = reports.into_iter().collect();
-        let done: Vec<&PairReport> = rows.iter().copied().flatten().collect();
-        let with = |is: fn(&PairReport) -> bool| done.iter().filter(|report| is(report)).count();
+        let measured: Vec<&PairReport> = rows.iter().copied().flatten().collect();
+        let count = |has: fn(&PairReport) -> bool| measured.iter().filter(|r| has(r)).count();
         let columns = columns::ALL.iter();
         Self {
             pairs: rows.len() + unfinished,
-            failures: rows.len() - done.len(),
+            failures: rows.len() - measured.len(),
             unfinished,
-            with_folds: with(|r| r.film.worst_folds > Some(0)),
-            with_crossings: with(|r| r.film.worst_crossings > Some(0)),
-            with_tears: with(|r| r.film.pieces_excess.max(r.film.holes_excess) > Some(0)),
-            measures: columns.filter_map(|c| measured(&done, c)).collect(),
+            with_folds: count(|r| r.film.worst_folds > Some(0)),
+            with_crossings: count(|r| r.film.worst_crossings > Some(0)),
+            with_tears: count(|r| r.film.pieces_excess.max(r.film.holes_excess) > Some(0)),
+            measures: columns.filter_map(|c| statistics(&measured, c)).collect(),
         }
     }
 
-    /// In aligned lines.
+    /// Returns the summary as text in aligned columns.
     pub fn text(&self) -> String {
-        const NAMES: usize = 36;
         let mut lines = NumberLines::default();
-        let built = self.pairs - self.unfinished - self.failures;
-        let of = |n: usize| format!("{n} of {built}");
+        let measured = self.pairs - self.unfinished - self.failures;
+        let of_measured = |n: usize| format!("{n} of {measured}");
         for (name, value) in [
             ("pairs", self.pairs.to_string()),
             ("failures", self.failures.to_string()),
-            ("not come to", self.unfinished.to_string()),
-            ("with a fold at some t", of(self.with_folds)),
-            ("with a boundary crossing", of(self.with_crossings)),
-            ("with pieces or holes of their own", of(self.with_tears)),
+            (NOT_MEASURED, self.unfinished.to_string()),
+            ("with folds", of_measured(self.with_folds)),
+            ("with crossings", of_measured(self.with_crossings)),
+            ("with extra pieces or holes", of_measured(self.with_tears)),
         ] {
-            // Goes without saying where all was done.
-            if name != "not come to" || self.unfinished > 0 {
-                lines.cells((name, NAMES), [value]);
+            // Usually all pairs are measured, and the line is left out.
+            if name != NOT_MEASURED || self.unfinished > 0 {
+                lines.cells((name, LABEL_WIDTH), [value]);
             }
         }
         if !self.measures.is_empty() {
             lines.gap();
-            lines.cells(("", NAMES), ["median", "worst tenth", "worst"]);
+            lines.cells(("", LABEL_WIDTH), ["median", "worst tenth", "worst"]);
         }
-        for told in &self.measures {
-            let values = [told.median, told.worst_tenth, told.worst];
-            lines.cells((&told.words, NAMES), values.map(short));
+        for measure in &self.measures {
+            let values = [measure.median, measure.worst_tenth, measure.worst];
+            lines.cells((&measure.label, LABEL_WIDTH), values.map(short));
         }
-        for told in &self.measures {
-            if let Some(spread) = &told.spread {
+        for measure in &self.measures {
+            if let Some(histogram) = &measure.spread {
                 lines.gap();
-                lines.line(&told.words);
-                spread.text().lines().for_each(|line| lines.line(line));
+                lines.line(&measure.label);
+                histogram.text().lines().for_each(|line| lines.line(line));
             }
         }
         lines.0
     }
 }
 
-fn measured(reports: &[&PairReport], column: &ReportColumn) -> Option<MeasuredPairs> {
+/// Returns the statistics of a column over all reports; `None` if the summary omits the column or
+/// no pair has the measure.
+fn statistics(reports: &[&PairReport], column: &ReportColumn) -> Option<MeasuredPairs> {
     let (_, better) = column.told?;
-    let mut all: Vec<f64> = reports.iter().filter_map(|r| column.number(r)).collect();
-    all.sort_unstable_by(f64::total_cmp);
+    let mut values: Vec<f64> = reports.iter().filter_map(|r| column.number(r)).collect();
+    values.sort_unstable_by(f64::total_cmp);
     if matches!(better, BetterDirection::Large) {
-        all.reverse();
+        values.reverse();
     }
-    // None where no pair has the measure, such as faces of a field.
-    let worst = *all.last()?;
-    let [median, worst_tenth] = [0.5, 0.9].map(|share| quantile(&all, share));
-    let is_drawn = column.is_drawn && all.len() >= ENOUGH;
+    let worst = *values.last()?;
+    let [median, worst_tenth] = [0.5, 0.9].map(|fraction| quantile(&values, fraction));
+    let is_drawn = column.is_drawn && values.len() >= MIN_HISTOGRAM_VALUES;
     Some(MeasuredPairs {
         column: column.heading(),
-        words: column.words()?,
+        label: column.words()?,
         median,
         worst_tenth,
         worst,
-        spread: is_drawn.then(|| Histogram::of(&all)).flatten(),
+        spread: is_drawn.then(|| Histogram::of(&values)).flatten(),
     })
 }
 
-/// What that share of sorted values, one at least, comes before; between two of them
-/// on a straight line (Hyndman and Fan 1996, definition 7).
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let at = share * (sorted.len() - 1) as f64;
-    let [below, above] = [at.floor(), at.ceil()].map(|k| sorted[k as usize]);
+/// Returns the quantile of sorted values at `fraction`, in [0, 1]. Interpolates linearly between
+/// neighbouring values (Hyndman and Fan 1996, definition 7).
+///
+/// # Panics
+/// If there are no values.
+fn quantile(sorted: &[f64], fraction: f64) -> f64 {
+    let position = fraction * (sorted.len() - 1) as f64;
+    let [below, above] = [position.floor(), position.ceil()].map(|k| sorted[k as usize]);
     if below == above {
-        // Two infinities have nothing between them.
+        // The difference of two infinite values would be NaN.
         return below;
     }
-    below + (at - at.floor()) * (above - below)
+    below + (position - position.floor()) * (above - below)
 }
 
 #[cfg(test)]
@@ -160,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn failures_count_and_do_not_enter_medians() {
+    fn failures_are_counted_and_ignored_in_medians() {
         let with = |excess: f64, angle: f64, folds: usize| {
             let mut report = report();
             report.film.conformal_excess = Some(excess);
@@ -172,36 +185,31 @@ mod tests {
         let summary = PairSummary::of([Some(&a), None, Some(&b), Some(&c)], 0);
         assert_eq!((summary.pairs, summary.failures), (4, 1));
         assert_eq!((summary.with_folds, summary.with_crossings), (1, 0));
-        let of = |column: &str| {
-            let found = summary.measures.iter().find(|m| m.column == column);
-            found.map(|measured| (measured.median, measured.worst))
+        let measure = |column: &str| {
+            let mut measures = summary.measures.iter();
+            measures.find(|m| m.column == column).expect("a measure")
         };
-        assert_eq!(of("conformal_excess"), Some((2.0, 3.0)));
-        assert_eq!(of("min_angle_source_deg"), Some((15.0, 10.0)));
-        let angle = |m: &&MeasuredPairs| m.column == "min_angle_source_deg";
-        let angle = summary.measures.iter().find(angle).expect("angles");
+        let excess = measure("conformal_excess");
+        assert_eq!((excess.median, excess.worst), (2.0, 3.0));
+        let angle = measure("min_angle_source_deg");
+        assert_eq!((angle.median, angle.worst), (15.0, 10.0));
         assert!((angle.worst_tenth - 11.0).abs() < 1e-12, "{angle:?}");
+        let line = |name: &str, value: &str| format!("{name:<44}{value:>12}\n");
         let text = summary.text();
-        assert!(text.contains("failures                                       1"));
-        assert!(!text.contains("not come to"));
+        assert!(text.contains(&line("failures", "1")), "{text}");
+        assert!(!text.contains("not measured"), "{text}");
         let text = PairSummary::of([Some(&a), None], 5).text();
-        assert!(
-            text.contains("not come to                                    5"),
-            "{text}"
-        );
-        assert!(
-            text.contains("with a fold at some t                     0 of 1"),
-            "{text}"
-        );
+        assert!(text.contains(&line("not measured", "5")), "{text}");
+        assert!(text.contains(&line("with folds", "0 of 1")), "{text}");
     }
 
     #[test]
-    fn a_tenth_lies_beyond_the_worst_tenth() {
-        let all: Vec<f64> = (0..=20).map(f64::from).collect();
-        assert_eq!(quantile(&all, 0.9), 18.0);
+    fn a_tenth_of_the_values_exceeds_the_worst_tenth() {
+        let values: Vec<f64> = (0..=20).map(f64::from).collect();
+        assert_eq!(quantile(&values, 0.9), 18.0);
         assert_eq!(quantile(&[7.0], 0.9), 7.0);
         assert!((quantile(&[1.0, 2.0], 0.9) - 1.9).abs() < 1e-12);
-        // What turns inside out is as bad as can be.
+        // The distortion of folded faces is infinite.
         let infinite = [1.0, f64::INFINITY, f64::INFINITY];
         assert_eq!(quantile(&infinite, 0.9), f64::INFINITY);
         assert_eq!(quantile(&infinite, 0.4), f64::INFINITY);

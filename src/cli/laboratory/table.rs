@@ -1,7 +1,7 @@
-//! A table of pairs as it is given: CSV with a header.
+//! Reads the table of pairs for `check --pairs`: CSV in UTF-8 with a header.
 //!
-//! What concerns the table as a whole is an error here; what concerns one row
-//! becomes that row's error, so that the others are worked on.
+//! A defect of the whole table is an error. A defect of a row becomes the error of this row, so
+//! that the other pairs can be measured.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -12,26 +12,27 @@ use crate::io::read;
 use crate::io::read::ReadError;
 use crate::io::sanitize::SanitizedLine;
 
-/// A table that can be worked on.
+/// Table of pairs, with at least one row.
 #[derive(Debug)]
 pub(super) struct PairTable {
-    /// The names of its columns.
+    /// Headings of the columns.
     pub header: Vec<String>,
+    /// Rows without those that have only empty cells.
     pub rows: Vec<PairTableRow>,
 }
 
-/// A row with as many cells as the header.
+/// Row of the table.
 #[derive(Debug)]
 pub(super) struct PairTableRow {
-    /// The line of the file at which it begins, from 1.
+    /// Line of the file on which the row starts, from 1.
     pub line: u64,
-    /// What it says, to be carried along.
+    /// Cells, as many as the header has; they are copied to the report.
     pub cells: Vec<Vec<u8>>,
-    /// The two files, or why there are none.
+    /// Source and target, or the error of the row.
     pub pair: Result<[PathBuf; 2], PairRowError>,
 }
 
-/// Why there is no table.
+/// Error of reading a table.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum PairTableError {
     #[error(transparent)]
@@ -47,54 +48,58 @@ pub(super) enum PairTableError {
     #[error("the first line is not text in UTF-8; save the table as CSV in UTF-8")]
     HeaderNotText,
     #[error("two columns are called `{0}`; rename one of them")]
-    Twice(String),
-    #[error("the column `{0}` has the name of one of the report's own; rename it")]
-    Own(String),
+    DuplicateHeading(String),
+    #[error("the column `{0}` has the name of a column of the report; rename it")]
+    ReservedHeading(String),
     #[error("there is no column `{0}`; the first line names {1}; separate columns by commas")]
-    Missing(&'static str, String),
+    MissingColumn(&'static str, String),
 }
 
-/// Why a row names no pair.
+/// Error of a row.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum PairRowError {
-    #[error("the row has {found} cells and the header {wanted}; quote cells that hold commas")]
-    Cells { found: usize, wanted: usize },
+    #[error("the row has {found} cells but the header {expected}; quote cells that contain commas")]
+    CellCount { found: usize, expected: usize },
     #[error("the {0} is not text in UTF-8; save the table in UTF-8")]
     NotText(&'static str),
     #[error("the {0} is empty; write the path of a design")]
     Empty(&'static str),
-    #[error("the {0} `{1}` runs over several lines; close its quote")]
-    Lines(&'static str, String),
+    #[error("the {0} `{1}` has several lines; close its quote")]
+    SeveralLines(&'static str, String),
 }
 
-/// Reads a table; its paths are relative to its folder.
+/// Reads a table from a file. The paths of designs are relative to its folder.
 pub(super) fn read(path: &Path) -> Result<PairTable, PairTableError> {
     let bytes = read::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    parsed(&bytes, folder)
+    parse(&bytes, folder)
 }
 
-fn parsed(bytes: &[u8], folder: &Path) -> Result<PairTable, PairTableError> {
+/// Parses a table from the content of a file. The paths of designs are relative to `folder`.
+fn parse(bytes: &[u8], folder: &Path) -> Result<PairTable, PairTableError> {
     const UTF8_MARK: &[u8] = b"\xef\xbb\xbf";
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
         return Err(PairTableError::Utf16);
     }
     let bytes = bytes.strip_prefix(UTF8_MARK).unwrap_or(bytes);
-    // A row of another length is that row's error, and the header has errors of
-    // its own.
+    // The reader accepts rows of any length and treats the header as a row, because the errors
+    // below are clearer than its own.
     let mut reader = csv::ReaderBuilder::new()
         .flexible(true)
         .has_headers(false)
         .from_reader(bytes);
     let mut records = reader.byte_records();
     let first = records.next().ok_or(PairTableError::Empty)?;
-    let header = header(&first.map_err(PairTableError::Csv)?)?;
-    let pair = [column(&header, "source")?, column(&header, "target")?];
+    let header = parse_header(&first.map_err(PairTableError::Csv)?)?;
+    let pair_columns = [
+        find_column(&header, "source")?,
+        find_column(&header, "target")?,
+    ];
     let mut rows = Vec::new();
     for record in records {
         let record = record.map_err(PairTableError::Csv)?;
         if !record.iter().all(|cell| cell.trim_ascii().is_empty()) {
-            rows.push(row(&record, header.len(), pair, folder));
+            rows.push(parse_row(&record, header.len(), pair_columns, folder));
         }
     }
     if rows.is_empty() {
@@ -103,7 +108,8 @@ fn parsed(bytes: &[u8], folder: &Path) -> Result<PairTable, PairTableError> {
     Ok(PairTable { header, rows })
 }
 
-fn header(record: &csv::ByteRecord) -> Result<Vec<String>, PairTableError> {
+/// Returns the headings of the table, or an error if they cannot be the start of a report.
+fn parse_header(record: &csv::ByteRecord) -> Result<Vec<String>, PairTableError> {
     let name = |cell: &[u8]| {
         let text = std::str::from_utf8(cell).ok().filter(|t| !t.contains('\0'));
         text.map(|name| name.trim().to_owned())
@@ -113,61 +119,73 @@ fn header(record: &csv::ByteRecord) -> Result<Vec<String>, PairTableError> {
     let mut seen = HashSet::new();
     for name in names.iter().filter(|name| !name.is_empty()) {
         if !seen.insert(name) {
-            return Err(PairTableError::Twice(cut(name)));
+            return Err(PairTableError::DuplicateHeading(shorten(name)));
         }
         if columns::is_own(name) {
-            return Err(PairTableError::Own(cut(name)));
+            return Err(PairTableError::ReservedHeading(shorten(name)));
         }
     }
     Ok(names)
 }
 
-fn column(header: &[String], wanted: &'static str) -> Result<usize, PairTableError> {
-    let mut names = header.iter();
-    names
-        .position(|name| name == wanted)
-        .ok_or_else(|| PairTableError::Missing(wanted, quoted(header)))
+/// Returns the index of the column with a heading.
+fn find_column(header: &[String], heading: &'static str) -> Result<usize, PairTableError> {
+    let mut headings = header.iter();
+    headings
+        .position(|name| name == heading)
+        .ok_or_else(|| PairTableError::MissingColumn(heading, list_headings(header)))
 }
 
-fn quoted(names: &[String]) -> String {
-    const MOST: usize = 8;
+/// Lists headings for an error message.
+fn list_headings(names: &[String]) -> String {
+    /// Maximum number of headings in the list (resource limit: keeps error messages short).
+    const MAX_SHOWN: usize = 8;
     let shown = names
         .iter()
-        .take(MOST)
-        .map(|name| format!("`{}`", cut(name)));
-    let more = if names.len() > MOST { ", ..." } else { "" };
+        .take(MAX_SHOWN)
+        .map(|name| format!("`{}`", shorten(name)));
+    let more = if names.len() > MAX_SHOWN { ", ..." } else { "" };
     shown.collect::<Vec<_>>().join(", ") + more
 }
 
-/// The beginning of a text that may be very long.
-fn cut(text: &str) -> String {
-    const MOST: usize = 60;
+/// Returns a text from the file for an error message: in one line, and cut off if it is long.
+fn shorten(text: &str) -> String {
+    /// Maximum number of characters before the ellipsis (resource limit: keeps error messages
+    /// short).
+    const MAX_CHARS: usize = 60;
     let line = SanitizedLine(text).to_string();
-    if line.chars().count() <= MOST {
+    if line.chars().count() <= MAX_CHARS {
         return line;
     }
-    line.chars().take(MOST).chain(['\u{2026}']).collect()
+    line.chars().take(MAX_CHARS).chain(['\u{2026}']).collect()
 }
 
-fn row(record: &csv::ByteRecord, width: usize, pair: [usize; 2], folder: &Path) -> PairTableRow {
+/// Returns a row with `width` cells. `pair_columns` holds the indices of the columns `source` and
+/// `target`.
+fn parse_row(
+    record: &csv::ByteRecord,
+    width: usize,
+    pair_columns: [usize; 2],
+    folder: &Path,
+) -> PairTableRow {
     let mut cells: Vec<Vec<u8>> = record.iter().take(width).map(<[u8]>::to_vec).collect();
-    // So that the report's own columns stand under their headings.
+    // In the report, the measures follow, and must be in the columns with their headings.
     cells.resize(width, Vec::new());
-    let [source, target] = pair;
-    let paths = || {
-        // Before the count of cells: a quote that is not closed swallows the rest,
-        // and is what to look for.
-        let source = path(&cells[source], "source", folder)?;
-        let target = path(&cells[target], "target", folder)?;
+    let [source, target] = pair_columns;
+    let parse_pair = || {
+        // The paths are checked before the number of cells: if a quotation mark is not closed, the
+        // rest of the file is one cell, and the error of this cell is more helpful.
+        let source = parse_path(&cells[source], "source", folder)?;
+        let target = parse_path(&cells[target], "target", folder)?;
         if record.len() != width {
-            return Err(PairRowError::Cells {
+            return Err(PairRowError::CellCount {
                 found: record.len(),
-                wanted: width,
+                expected: width,
             });
         }
         Ok([source, target])
     };
-    let pair = paths();
+    let pair = parse_pair();
     PairTableRow {
         line: record.position().map_or(0, csv::Position::line),
         cells,
@@ -175,14 +193,15 @@ fn row(record: &csv::ByteRecord, width: usize, pair: [usize; 2], folder: &Path) 
     }
 }
 
-fn path(cell: &[u8], column: &'static str, folder: &Path) -> Result<PathBuf, PairRowError> {
+/// Returns the path of a design from its cell. `column` is the heading, for error messages.
+fn parse_path(cell: &[u8], column: &'static str, folder: &Path) -> Result<PathBuf, PairRowError> {
     let text = std::str::from_utf8(cell).map_err(|_| PairRowError::NotText(column))?;
     let text = text.trim();
     if text.is_empty() {
         return Err(PairRowError::Empty(column));
     }
     if text.contains(['\n', '\r', '\0']) {
-        return Err(PairRowError::Lines(column, cut(text)));
+        return Err(PairRowError::SeveralLines(column, shorten(text)));
     }
     Ok(DesignSource::in_folder(folder, text.as_ref()).to_path())
 }
@@ -192,7 +211,7 @@ mod tests {
     use super::*;
 
     fn table(text: &str) -> Result<PairTable, PairTableError> {
-        parsed(text.as_bytes(), Path::new("folder"))
+        parse(text.as_bytes(), Path::new("folder"))
     }
 
     fn pairs(text: &str) -> Vec<Result<[String; 2], PairRowError>> {
@@ -204,25 +223,25 @@ mod tests {
 
     #[test]
     fn paths_are_relative_to_the_table() {
-        let found = pairs("kind,target,source\nx,b c.svg, a.svg\n");
+        let pairs = pairs("kind,target,source\nx,b c.svg, a.svg\n");
         let expected = ["folder/a.svg", "folder/b c.svg"].map(str::to_owned);
-        assert_eq!(found, [Ok(expected)]);
+        assert_eq!(pairs, [Ok(expected)]);
     }
 
     #[test]
-    fn elements_and_letters_are_designs_too() {
-        let found = pairs("source,target\nglyph:D,a.svg#leaf\nglyph:S@x.ttf,./glyph:D\n");
+    fn svg_elements_and_glyphs_are_designs() {
+        let pairs = pairs("source,target\nglyph:D,a.svg#leaf\nglyph:S@x.ttf,./glyph:D\n");
         let expected = [
             ["glyph:D", "folder/a.svg#leaf"],
             ["glyph:S@folder/x.ttf", "folder/./glyph:D"],
         ];
-        for (found, expected) in found.into_iter().zip(expected) {
-            assert_eq!(found, Ok(expected.map(str::to_owned)));
+        for (pair, expected) in pairs.into_iter().zip(expected) {
+            assert_eq!(pair, Ok(expected.map(str::to_owned)));
         }
     }
 
     #[test]
-    fn quotes_marks_and_blank_lines_are_read() {
+    fn quotes_byte_order_marks_and_blank_lines_are_read() {
         let text =
             "\u{feff}\"source\",target,note\r\n\"a, 1.svg\",b.svg,\"say \"\"x\"\"\"\r\n\r\n,,\r\n";
         let table = table(text).expect("a table");
@@ -233,8 +252,8 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_the_whole_table_is_said() {
-        for (text, said) in [
+    fn defects_of_the_whole_table_are_refused_with_a_reason() {
+        for (text, reason) in [
             ("", "empty"),
             ("\n\n", "empty"),
             ("source,target\n", "no pairs"),
@@ -247,30 +266,30 @@ mod tests {
             ("source,target,status\na,b,c\n", "`status` has the name"),
             ("source,target\0\na,b\n", "not text"),
         ] {
-            let problem = table(text).expect_err(said).to_string();
-            assert!(problem.contains(said), "{text:?}: {problem}");
+            let message = table(text).expect_err(reason).to_string();
+            assert!(message.contains(reason), "{text:?}: {message}");
         }
-        let utf16 = parsed(b"\xff\xfes\0o\0", Path::new("")).expect_err("UTF-16");
+        let utf16 = parse(b"\xff\xfes\0o\0", Path::new("")).expect_err("UTF-16");
         assert!(utf16.to_string().contains("UTF-8"));
     }
 
     #[test]
-    fn what_is_wrong_with_a_row_stays_with_it() {
-        let found = pairs("source,target,k\na,b,\na,,1\na,b\na,b,1,2\n\"a\nb\nc,d,e");
-        let said = [
+    fn a_defect_of_a_row_is_the_error_of_this_row() {
+        let pairs = pairs("source,target,k\na,b,\na,,1\na,b\na,b,1,2\n\"a\nb\nc,d,e");
+        let reasons = [
             "",
             "target is empty",
             "2 cells",
             "4 cells",
             "target is empty",
         ];
-        assert_eq!(found.len(), said.len(), "{found:?}");
-        assert!(found[0].is_ok());
-        for (row, said) in found.iter().zip(said).skip(1) {
-            let problem = row.as_ref().expect_err(said).to_string();
+        assert_eq!(pairs.len(), reasons.len(), "{pairs:?}");
+        assert!(pairs[0].is_ok());
+        for (pair, reason) in pairs.iter().zip(reasons).skip(1) {
+            let message = pair.as_ref().expect_err(reason).to_string();
             assert!(
-                problem.contains(said) || problem.contains("close its quote"),
-                "{problem}"
+                message.contains(reason) || message.contains("close its quote"),
+                "{message}"
             );
         }
     }

@@ -1,5 +1,6 @@
-//! The report of one transition for people: short, in aligned lines.
-//! Everything else is in the JSON.
+//! Formats the report on one transition as text for people, in aligned lines.
+//!
+//! The text is a selection; the JSON contains all measures.
 
 use super::number::{NumberLines, percent, short};
 use super::report::{DesignReport, PairReport};
@@ -7,14 +8,14 @@ use crate::content::ContentKind;
 use crate::measure::{Distribution, FilmSample, MeshReport, MotionReport, Quantity};
 use crate::settings::Choice;
 
-/// Room for what stands at the left.
-const NAMES: usize = 12;
+/// Width of the names on the left, in characters; the longest name has 9 (heuristic).
+const NAME_WIDTH: usize = 12;
 
-/// The most samples that are listed.
-const MOST_ROWS: usize = 9;
+/// Maximum number of samples that are listed, including the first and the last (heuristic).
+const MAX_ROWS: usize = 9;
 
-/// Columns of the list of samples.
-const LISTED: [(&str, Quantity); 8] = [
+/// Columns of the list of samples: the heading and the measure.
+const SAMPLE_COLUMNS: [(&str, Quantity); 8] = [
     ("area", Quantity::Area),
     ("perimeter", Quantity::Perimeter),
     ("pieces", Quantity::Pieces),
@@ -22,16 +23,16 @@ const LISTED: [(&str, Quantity); 8] = [
     ("crossings", Quantity::Crossings),
     ("folds", Quantity::Folds),
     ("conformal", Quantity::WorstConformal),
-    ("least det", Quantity::MinDet),
+    ("min det", Quantity::MinDet),
 ];
 
-/// The whole report.
+/// Returns the report as text.
 pub(in crate::cli) fn text(report: &PairReport) -> String {
     let mut lines = NumberLines::default();
     lines.line(&report.title);
     lines.gap();
     method(report, &mut lines);
-    verdict(report, &mut lines);
+    check(report, &mut lines);
     if let Some(mesh) = &report.mesh {
         distortion(report, mesh, &mut lines);
     }
@@ -44,11 +45,13 @@ pub(in crate::cli) fn text(report: &PairReport) -> String {
 }
 
 impl NumberLines {
+    /// Adds a line with a name on the left.
     fn row(&mut self, name: &str, text: &str) {
-        self.line(&format!("{name:<NAMES$} {text}"));
+        self.line(&format!("{name:<NAME_WIDTH$} {text}"));
     }
 }
 
+/// Adds the method, the designs with their import notes, and the mesh.
 fn method(report: &PairReport, lines: &mut NumberLines) {
     let content = match report.content {
         ContentKind::Solid => "",
@@ -56,17 +59,17 @@ fn method(report: &PairReport, lines: &mut NumberLines) {
         ContentKind::Colours => "colours",
     };
     let warp = (report.warp.labels().name, report.warp.name().key);
-    // Solids go without saying.
-    let said = [warp, (content, report.content.name().key)];
-    let said = said.into_iter().filter(|(words, _)| !words.is_empty());
-    let said: Vec<_> = said
-        .map(|(words, key)| format!("{words} ({key})"))
+    // Solid content is the usual case and is not named.
+    let parts = [warp, (content, report.content.name().key)];
+    let named_parts = parts.into_iter().filter(|(label, _)| !label.is_empty());
+    let texts: Vec<_> = named_parts
+        .map(|(label, key)| format!("{label} ({key})"))
         .collect();
-    let method = said.join(", ");
+    let method = texts.join(", ");
     let grid = report.grid.map(|[w, h]| format!(", {w} x {h} cells"));
     lines.row("method", &format!("{method}{}", grid.unwrap_or_default()));
     for (role, design) in ["source", "target"].iter().zip(&report.designs) {
-        lines.row(role, &of_design(design));
+        lines.row(role, &describe(design));
         for note in &design.notes {
             lines.row("", note);
         }
@@ -75,7 +78,7 @@ fn method(report: &PairReport, lines: &mut NumberLines) {
     lines.row(
         "mesh",
         &format!(
-            "{} faces; {} vertices on the boundary, {} inside ({} for one)",
+            "{} faces; {} vertices on the boundary, {} inside ({} per boundary vertex)",
             mesh.faces,
             mesh.boundary_vertices,
             mesh.inner_vertices,
@@ -85,7 +88,7 @@ fn method(report: &PairReport, lines: &mut NumberLines) {
     lines.row(
         "angles",
         &format!(
-            "{:.1}\u{b0} least in the source, {:.1}\u{b0} in the target; {} of faces below 5\u{b0}",
+            "minimum {:.1}° in the source, {:.1}° in the target; {} of faces below 5°",
             mesh.min_angle_source_deg,
             mesh.min_angle_target_deg,
             percent(mesh.thin_faces)
@@ -93,24 +96,26 @@ fn method(report: &PairReport, lines: &mut NumberLines) {
     );
 }
 
-fn of_design(design: &DesignReport) -> String {
+/// Returns the name, kind and size of a design.
+fn describe(design: &DesignReport) -> String {
     format!(
         "{}, {} of {} points",
         design.name, design.kind, design.points
     )
 }
 
-fn verdict(report: &PairReport, lines: &mut NumberLines) {
+/// Adds the defects with their causes and fixes, the proof and the notes.
+fn check(report: &PairReport, lines: &mut NumberLines) {
     lines.gap();
     let findings = &report.verdict.findings;
     if findings.is_empty() {
-        lines.row("verdict", &report.verdict.words);
+        lines.row("check", &report.verdict.words);
     }
     for finding in findings {
         let [x, y] = finding.finding.place.to_array().map(short);
-        lines.row("verdict", &format!("{}, about ({x}, {y})", finding.words));
-        lines.row("", &format!("cause: {}", finding.cause_words));
-        lines.row("", &format!("to do: {}", finding.remedy_words));
+        lines.row("check", &format!("{}, near ({x}, {y})", finding.words));
+        lines.row("", &format!("Cause: {}", finding.cause_words));
+        lines.row("", &format!("Fix: {}", finding.remedy_words));
     }
     if let Some(proof) = &report.proof {
         lines.row("proof", &proof.words);
@@ -120,47 +125,56 @@ fn verdict(report: &PairReport, lines: &mut NumberLines) {
     }
 }
 
+/// Adds the distortion at t = 1, and by how much it is exceeded at smaller t.
 fn distortion(report: &PairReport, mesh: &MeshReport, lines: &mut NumberLines) {
     lines.gap();
-    let heads = ["median", "95 %", "worst", "    worse on the way"];
-    lines.cells(("at t = 1", NAMES), heads);
+    let heads = ["median", "95 %", "worst", "           overshoot"];
+    lines.cells(("at t = 1", NAME_WIDTH), heads);
     let film = &report.film;
     let of = &mesh.distortion;
     let rows: [(&str, &Distribution, Option<f64>); 4] = [
         ("conformal", &of.conformal, film.conformal_excess),
         ("isometric", &of.isometric, film.isometric_excess),
         ("area", &of.area, film.area_distortion_excess),
-        ("stretch", &mesh.boundary_stretch, None),
+        ("boundary", &mesh.boundary_stretch, None),
     ];
     for (name, d, excess) in rows {
         let excess = format!("{:>20}", excess.map(short).unwrap_or_default());
         let [median, p95, worst] = [d.median, d.p95, d.worst].map(short);
-        lines.cells((name, NAMES), [median, p95, worst, excess]);
+        lines.cells((name, NAME_WIDTH), [median, p95, worst, excess]);
     }
 }
 
+/// Adds the measures of the whole film.
 fn film(report: &PairReport, lines: &mut NumberLines) {
     let film = &report.film;
     lines.gap();
-    let seen = |count: Option<usize>, first: Option<f64>| {
-        let first = first.map(|t| format!(", the first at t = {t:.2}"));
-        count.map(|n| format!("{n}{}", first.unwrap_or_default()))
+    let defects = |max_count: Option<usize>, first_t: Option<f64>| {
+        max_count.map(|count| match first_t {
+            Some(t) => format!("up to {count} at once, first at t = {t:.2}"),
+            None => count.to_string(),
+        })
     };
-    let off = |share: f64| format!("{} of the diameter off", short(share));
-    let up_and_down = format!(
-        "area {}, perimeter {}, turning {} beyond what the ends need",
+    let asymmetry = |distance: f64| {
+        format!(
+            "{} of the diameter if the designs are swapped",
+            short(distance)
+        )
+    };
+    let overshoot = format!(
+        "area {}, perimeter {}, turning {} beyond a steady change",
         percent(film.area_variation_excess),
         percent(film.perimeter_variation_excess),
         percent(film.turning_excess)
     );
     for (name, text) in [
-        ("folds", seen(film.worst_folds, film.first_fold_t)),
+        ("folds", defects(film.worst_folds, film.first_fold_t)),
         (
             "crossings",
-            seen(film.worst_crossings, film.first_crossing_t),
+            defects(film.worst_crossings, film.first_crossing_t),
         ),
-        ("symmetry", film.asymmetry.map(off)),
-        ("up and down", Some(up_and_down)),
+        ("asymmetry", film.asymmetry.map(asymmetry)),
+        ("overshoot", Some(overshoot)),
         ("topology", topology(report)),
         ("motion", film.motion.as_ref().map(motion)),
     ] {
@@ -170,61 +184,66 @@ fn film(report: &PairReport, lines: &mut NumberLines) {
     }
 }
 
-/// Solids keep theirs, so that it is told of fields only.
+/// Returns the numbers of extra pieces and holes of a field blend; `None` for other content, whose
+/// pieces and holes do not change.
 fn topology(report: &PairReport) -> Option<String> {
     let (pieces, holes) = report.film.pieces_excess.zip(report.film.holes_excess)?;
     (report.content == ContentKind::Field)
-        .then(|| format!("{pieces} pieces and {holes} holes more than at the ends"))
+        .then(|| format!("extra pieces {pieces}, extra holes {holes}"))
 }
 
+/// Returns travel and acceleration of the vertices.
 fn motion(motion: &MotionReport) -> String {
     format!(
-        "travel {} mean, {} most; acceleration {} (diameters, rigid motion taken out)",
+        "mean travel {}, maximum {}; acceleration up to {} (diameters, without rigid motion)",
         short(motion.mean_travel),
         short(motion.max_travel),
         short(motion.max_acceleration)
     )
 }
 
+/// Adds a list of evenly spaced samples, with the measures that this transition has.
 fn samples(samples: &[FilmSample], lines: &mut NumberLines) {
-    let known = |(_, quantity): &&(&str, Quantity)| {
+    let is_measured = |(_, quantity): &&(&str, Quantity)| {
         samples
             .first()
             .is_some_and(|s| quantity.value_at(s).is_some())
     };
-    let columns: Vec<_> = LISTED.iter().filter(known).collect();
-    lines.cells(("t", NAMES), columns.iter().map(|(name, _)| name));
-    // Two at least, as the parser has it. The ends and about eight steps.
-    let step = (samples.len() - 1).div_ceil(MOST_ROWS - 1).max(1);
+    let columns: Vec<_> = SAMPLE_COLUMNS.iter().filter(is_measured).collect();
+    lines.cells(("t", NAME_WIDTH), columns.iter().map(|(name, _)| name));
+    // There are at least two samples, because `--samples` requires it.
     let last = samples.len() - 1;
-    let listed = samples.iter().enumerate();
-    for (_, sample) in listed.filter(|(i, _)| i % step == 0 || *i == last) {
+    let step = last.div_ceil(MAX_ROWS - 1).max(1);
+    let indexed = samples.iter().enumerate();
+    for (_, sample) in indexed.filter(|(i, _)| i % step == 0 || *i == last) {
         let cells = columns
             .iter()
             .map(|(_, quantity)| quantity.value_at(sample));
         let cells = cells.map(|cell| cell.map(short).unwrap_or_default());
-        lines.cells((&short(sample.t), NAMES), cells);
+        lines.cells((&short(sample.t), NAME_WIDTH), cells);
     }
 }
 
+/// Adds two lines with times in milliseconds: of building, and of frames and measuring. Stages
+/// that took no time are left out.
 fn times(report: &PairReport, lines: &mut NumberLines) {
     let seconds = &report.seconds;
-    let once = [
+    let building = [
         ("import", seconds.import),
         ("match", seconds.matching),
         ("triangulate", seconds.triangulate),
-        ("build in all", seconds.build),
+        ("total build", seconds.build),
     ];
-    let often = [
+    let using = [
         ("frame", seconds.frame),
         ("figure", seconds.figure),
         ("measure", seconds.measure),
     ];
-    for (name, times) in [("time", once.as_slice()), ("", often.as_slice())] {
-        let taken = times.iter().filter(|(_, s)| *s > 0.0);
-        let words: Vec<_> = taken
+    for (name, times) in [("time", building.as_slice()), ("", using.as_slice())] {
+        let measured = times.iter().filter(|(_, s)| *s > 0.0);
+        let texts: Vec<_> = measured
             .map(|(name, s)| format!("{name} {} ms", short(1e3 * s)))
             .collect();
-        lines.row(name, &words.join(", "));
+        lines.row(name, &texts.join(", "));
     }
 }

@@ -1,27 +1,29 @@
-//! How a mesh gives way where it is pushed.
+//! Compliance of a mesh: displacement of all vertices when one vertex is pushed.
 //!
-//! By the film's own energy K a point that is pushed draws a spike, since the response
-//! to a point load in the plane is a logarithm. With (K + μM) M⁻¹ (K + μM) instead, M
-//! the masses of the vertices, it is a smooth dent, which ends where μ says, and a part
-//! may also be pushed away as a whole. What comes or goes is only pushed as a whole: it is
-//! small, and its form is its design's.
+//! Let K be the matrix of the motion's own energy. With K alone, a pushed vertex would become a
+//! spike, because the response of the plane to a point load is a logarithm. The matrix (K + μM) M⁻¹
+//! (K + μM) is used instead, where M is the diagonal matrix of the vertex masses. Its response is a
+//! smooth dent, whose width depends on μ, and a connected part can also be pushed away as a whole.
+//! A part that exists in only one design is only pushed as a whole, because it is small and must
+//! not change its shape.
 
 use crate::numerics::{Cholesky, CholeskyWorkspace, FactorError};
 use crate::warp::Arap;
 use std::collections::BTreeMap;
 
-/// μ: dents are some √(1/μ) as wide as the design.
+/// The factor μ of the masses. Dents are about √(1/μ) times as wide as the design (heuristic).
 const LOCAL: f64 = 30.0;
 
-/// The responses of a mesh to pushes at its vertices, as far as they were asked for.
+/// Compliance of a mesh, computed vertex by vertex on request.
 pub(super) struct MeshCompliance {
     cholesky: Cholesky,
     workspace: CholeskyWorkspace,
     masses: Vec<f64>,
-    /// The connected part of each vertex.
+    /// For each vertex, the index of its connected part.
     parts: Vec<u32>,
-    /// Of each part whether it comes or goes.
+    /// For each connected part, whether it exists in only one design.
     living: Vec<bool>,
+    /// For each vertex that was requested, the displacement of all vertices when it is pushed.
     columns: BTreeMap<u32, Vec<f64>>,
 }
 
@@ -44,7 +46,7 @@ impl MeshCompliance {
         })
     }
 
-    /// Learns how all vertices move where one is pushed.
+    /// Computes the displacement of all vertices when `vertex` is pushed, unless it is known.
     pub(super) fn learn(&mut self, vertex: u32) {
         if self.columns.contains_key(&vertex) {
             return;
@@ -70,7 +72,8 @@ impl MeshCompliance {
         self.columns.insert(vertex, column);
     }
 
-    /// How all vertices move where one is pushed; none where that was not learnt.
+    /// Returns the displacement of each vertex, as a multiple of the push at `vertex`; `None`
+    /// before [`Self::learn`] was called for it.
     pub(super) fn response(&self, vertex: u32) -> Option<&[f64]> {
         self.columns.get(&vertex).map(Vec::as_slice)
     }

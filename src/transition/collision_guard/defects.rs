@@ -1,4 +1,4 @@
-//! What is first not proved of a film.
+//! The first fold or collision of a motion: the smallest t at which its proof fails.
 
 use super::drawn_pieces::DrawnPieces;
 use crate::recording::proof::{OutlineMeeting, RecordingProof};
@@ -8,15 +8,19 @@ use crate::warp::Arap;
 use crate::work::progress::Progress;
 use std::sync::Arc;
 
-/// Where a film folds or its outlines meet first.
+/// First time at which a face folds or outlines meet, or at which neither can be excluded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FirstDefect {
     pub t: f64,
-    /// What meets then.
+    /// The vertex and edge that meet; `None` if the defect is a fold.
     pub meeting: Option<OutlineMeeting>,
 }
 
-/// What is first not proved of a film; nothing where it does not settle.
+/// Records a motion and returns its first defect; `Some(None)` if it has none. Returns `None` if
+/// the motion cannot be recorded.
+///
+/// # Errors
+/// If the work is cancelled.
 pub(super) fn trouble(
     film: &Arap,
     drawn: &DrawnPieces,

@@ -1,10 +1,10 @@
-//! What is drawn of a film as its mesh has it, and when.
+//! The boundary loops that are drawn as the mesh has them, with their layers and visible intervals.
 
 use crate::recording::proof::DrawnLoop;
 use crate::transition::transients::layers::PieceLayers;
 use crate::warp::Arap;
 
-/// What is known of the pieces of a match.
+/// The pieces of a match: their layers, and which of them swell.
 #[derive(Clone, Debug)]
 pub(super) struct DrawnPieces {
     pieces: Vec<DrawnPiece>,
@@ -17,7 +17,8 @@ struct DrawnPiece {
 }
 
 impl DrawnPieces {
-    /// `swelling` are the pieces that are not drawn as the mesh has them.
+    /// Creates the list from the number of pieces. `swelling` contains the indices of the pieces
+    /// that swell, whose drawn outlines differ from the mesh boundary.
     pub(super) fn of(pieces: usize, swelling: &[usize], levels: &PieceLayers) -> Self {
         let piece = |k: usize| DrawnPiece {
             level: levels.of_piece(k),
@@ -28,7 +29,7 @@ impl DrawnPieces {
         }
     }
 
-    /// The boundaries that are drawn as the mesh has them.
+    /// Returns the boundary loops of all pieces that do not swell.
     pub(super) fn walks(&self, film: &Arap) -> Vec<DrawnLoop> {
         let parts = film.mesh().components();
         let walks = film.mesh().boundary_loops().into_iter();

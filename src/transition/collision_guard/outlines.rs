@@ -1,24 +1,27 @@
-//! What may meet what, and which of it is near.
+//! The vertices and edges of all outlines, and the vertex–edge pairs that are close to each other.
 
 use crate::geometry::{DVec2, nearest_segment_parameter};
 use crate::recording::proof::DrawnLoop;
 use crate::warp::{Arap, Warp};
 use std::collections::BTreeMap;
 
-/// How far outlines are kept apart, as a share of the diameter: a pixel of a thousand.
+/// Clearance between outlines, as a fraction of the mesh diameter (heuristic: one pixel of a
+/// picture 1,000 pixels wide).
 const APART: f64 = 1e-3;
 
-/// What is nearer in a design touches there, as a share of the diameter: the sides of a
-/// cut.
+/// A vertex closer than this to an edge, as a fraction of the mesh diameter, touches it, as on the
+/// two sides of a cut (tolerance: far above rounding, far below the clearance).
 const TOUCHES: f64 = 1e-7;
 
-/// What touches at an end is as far apart as other things after so much of the film.
+/// Time after which a pair that touches when it appears reaches the full clearance; likewise before
+/// it disappears (heuristic).
 const OPENS: f64 = 0.05;
 
-/// A vertex and an edge that must not meet, by their numbers.
+/// A vertex and an edge that must not meet: indices in the `points` and `edges` of
+/// [`GuardedOutlines`].
 pub(super) type GuardedPair = (usize, usize);
 
-/// An edge of an outline; what is filled is on its left.
+/// An edge of an outline. The filled side is on its left.
 #[derive(Clone, Copy)]
 pub(super) struct GuardedEdge {
     pub ends: [u32; 2],
@@ -30,16 +33,16 @@ pub(super) struct GuardedOutlines {
     points: Vec<(u32, usize)>,
     edges: Vec<GuardedEdge>,
     walks: Vec<DrawnLoop>,
-    /// Of each walk the part that comes or goes, if it is of one.
+    /// For each loop, the index of its connected part if that part exists in only one design.
     living: Vec<Option<u32>>,
-    /// Where the plain film has all vertices when an outline begins or ceases to be
-    /// drawn, by the bits of that time.
+    /// Positions of all vertices in the original motion at the times at which a loop appears or
+    /// disappears. The key is the bit pattern of the time.
     ends: BTreeMap<u64, Vec<DVec2>>,
     diameter: f64,
 }
 
 impl GuardedOutlines {
-    /// None without outlines.
+    /// Collects the outlines; `None` if there are none.
     pub(super) fn of(film: &Arap, drawn: &[DrawnLoop]) -> Option<Self> {
         let mut placer = film.placer();
         let mut ends = BTreeMap::new();
@@ -74,12 +77,12 @@ impl GuardedOutlines {
         })
     }
 
-    /// How far outlines are kept apart, in units of the plane.
+    /// Returns the clearance between outlines, in units of the plane.
     pub(super) fn apart(&self) -> f64 {
         APART * self.diameter
     }
 
-    /// What is nearer than this touches.
+    /// Returns the distance below which a vertex touches an edge, in units of the plane.
     pub(super) fn touches(&self) -> f64 {
         TOUCHES * self.diameter
     }
@@ -92,7 +95,8 @@ impl GuardedOutlines {
         self.edges[pair.1].ends
     }
 
-    /// When both are drawn, if they ever are together.
+    /// Returns the first and the last time at which vertex and edge are both drawn. The first is
+    /// later than the last if they are never drawn together.
     fn drawn(&self, pair: GuardedPair) -> [f64; 2] {
         let [a, b] = [self.points[pair.0].1, self.edges[pair.1].walk];
         let [a, b] = [&self.walks[a], &self.walks[b]];
@@ -108,15 +112,15 @@ impl GuardedOutlines {
         let both = [a, edge.walk].map(|walk| &self.walks[walk]);
         let living = self.living[a];
         both[0].layer == both[1].layer
-            // What comes or goes keeps its form.
+            // A part that exists in only one design keeps its shape and cannot meet itself.
             && (living.is_none() || living != self.living[edge.walk])
             && from < t
             && t < to
             && !edge.ends.contains(&vertex)
     }
 
-    /// How far a pair is to be kept apart at `t`: as far as all, but no further than
-    /// a quarter of what it is apart where it begins and ends to be drawn.
+    /// Returns the clearance of a pair at `t`. It is the general clearance, but at most a quarter
+    /// of the distance of the pair when it begins or ceases to be drawn.
     pub(super) fn gap(&self, pair: GuardedPair, t: f64) -> f64 {
         let [from, to] = self.drawn(pair);
         let apart = self.apart();
@@ -134,15 +138,16 @@ impl GuardedOutlines {
         apart.min(reach(from, t - from)).min(reach(to, to - t))
     }
 
-    /// From the nearest point of the edge to the vertex.
+    /// Returns the vector from the nearest point of the edge to the vertex.
     pub(super) fn towards(&self, pair: GuardedPair, places: &[DVec2]) -> DVec2 {
         let p = places[self.vertex(pair) as usize];
         let [a, b] = self.edge(pair).map(|v| places[v as usize]);
         p - a.lerp(b, nearest_segment_parameter(p, a, b))
     }
 
-    /// All pairs that come within `reach` of each other at `t` on the way from one
-    /// place to another, or may.
+    /// Returns all pairs that may come within `reach` of each other while the vertices move in
+    /// straight lines from `ways[0]` to `ways[1]`, and that are drawn at `t`. May contain pairs
+    /// that stay farther apart.
     pub(super) fn near(&self, ways: [&[DVec2]; 2], reach: f64, t: f64) -> Vec<GuardedPair> {
         let mut spans: Vec<SweepBox> = Vec::with_capacity(2 * self.points.len());
         for (number, &(vertex, _)) in self.points.iter().enumerate() {
@@ -188,7 +193,7 @@ enum SweepMember {
     Edge(usize),
 }
 
-/// The box around a way.
+/// Bounding box of the straight paths of a vertex or an edge.
 struct SweepBox {
     low: DVec2,
     high: DVec2,

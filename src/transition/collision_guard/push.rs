@@ -1,38 +1,42 @@
-//! The smallest displacement that keeps so much apart.
+//! The smallest displacement that satisfies all contact constraints.
 //!
-//! min ½ |D|² in the energy of the mesh, C D ≥ b. By its dual, min ½ λᵀ A λ − bᵀ λ with
-//! λ ≥ 0 and A = C G Cᵀ, G the response of the mesh: as many unknowns as there are
-//! contacts, solved one after the other, over and over (projected Gauss–Seidel), which
-//! converges since A is symmetric and not negative. The same in any order of threads.
+//! Solves min ½ |D|² subject to C D ≥ b, where |D| is measured in the energy of the mesh. The dual
+//! problem is min ½ λᵀ A λ − bᵀ λ subject to λ ≥ 0, with A = C G Cᵀ and the compliance G of the
+//! mesh. It has one unknown per contact and is solved by projected Gauss–Seidel iteration, which
+//! converges because A is symmetric and positive semidefinite. The result does not depend on the
+//! number of threads.
 
 use super::compliance::MeshCompliance;
 use crate::geometry::DVec2;
 
-/// Σ g · D over some vertices is to be `least` or more.
+/// The constraint Σ g · D ≥ `least` on the displacements D of some vertices; `terms` holds each
+/// vertex with its vector g.
 #[derive(Clone, Debug)]
 pub(super) struct ContactConstraint {
     pub terms: Vec<(u32, DVec2)>,
     pub least: f64,
 }
 
-/// Contacts that push at one moment; what has more is a collision of the whole.
+/// Maximum number of active contacts at one time (resource limit; more of them mean that whole
+/// shapes collide).
 const MOST: usize = 600;
 
-/// Sweeps over all contacts at most.
+/// Maximum number of sweeps over all contacts (resource limit).
 const SWEEPS: u32 = 400;
 
-/// How often contacts are added that a displacement has run into.
+/// Maximum number of times that contacts violated by the current displacement are added (resource
+/// limit).
 const ADDED: u32 = 12;
 
-/// What each vertex moves by; none where there are too many contacts. Contacts are met
-/// to `tolerance`, as far as they can be met.
+/// Returns the smallest displacement of each vertex that satisfies the constraints `rows` within
+/// `tolerance`, as far as they can be satisfied; `None` if too many are active.
 pub(super) fn smallest(
     rows: &[ContactConstraint],
     yielding: &mut MeshCompliance,
     tolerance: f64,
 ) -> Option<Vec<DVec2>> {
     let mut moved = vec![DVec2::ZERO; yielding.vertex_count()];
-    // Most of what is near is neither in the way nor comes to be.
+    // Most constraints are never violated, so only violated ones become active.
     let mut pushing = vec![false; rows.len()];
     for _ in 0..ADDED {
         let mut is_more = false;
@@ -70,7 +74,7 @@ pub(super) fn smallest(
     Some(moved)
 }
 
-/// A = C G Cᵀ, row by row.
+/// Returns the matrix A = C G Cᵀ, row by row.
 fn products(rows: &[&ContactConstraint], yielding: &MeshCompliance) -> Vec<f64> {
     let n = rows.len();
     let mut a = vec![0.0; n * n];
@@ -93,13 +97,13 @@ fn products(rows: &[&ContactConstraint], yielding: &MeshCompliance) -> Vec<f64> 
 fn multipliers(rows: &[&ContactConstraint], a: &[f64], tolerance: f64) -> Vec<f64> {
     let n = rows.len();
     let mut lambda = vec![0.0; n];
-    // What C D is so far.
+    // The current value of C D.
     let mut reached = vec![0.0; n];
     for _ in 0..SWEEPS {
         let mut off: f64 = 0.0;
         for i in 0..n {
             let own = a[i * n + i];
-            // Nothing gives way.
+            // The mesh does not yield in this direction.
             if own <= 0.0 {
                 continue;
             }

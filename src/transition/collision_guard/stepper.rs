@@ -1,9 +1,9 @@
-//! Through the film from t = 0, pushing aside what is in the way.
+//! Steps through a motion from t = 0 and displaces vertices that would collide.
 //!
-//! Each step begins where the one before has left all apart. Of a vertex and an edge
-//! that come near each other a line between them is known from there; it turns with the
-//! edge, and both stay on their sides of it. So nothing slips through between steps,
-//! and what was never in the way is never touched.
+//! Each step starts from positions without collisions. A vertex and an edge that come close to each
+//! other there have a separating line between them. The line rotates with the edge, and in the next
+//! step both must stay on their sides of it. Vertices therefore cannot slip through edges between
+//! two steps. Vertices that nothing comes close to are not displaced.
 
 use super::compliance::MeshCompliance;
 use super::outlines::{GuardedOutlines, GuardedPair};
@@ -13,24 +13,30 @@ use crate::warp::{Arap, Placer, Warp};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::BTreeMap;
 
-/// How often a step is corrected: faces are straight only to first order, and a
-/// vertex that slides about a corner turns its line.
+/// Maximum number of corrections of a step (resource limit). Corrections are needed because the
+/// constraints on face areas are linearised, and because a vertex that slides around a corner
+/// rotates its separating line.
 const CORRECTIONS: u32 = 6;
 
-/// What a step may be off by, as a share of what is kept apart.
+/// Accuracy of the displacements, as a fraction of the clearance between outlines (tolerance:
+/// invisible).
 const EXACT: f64 = 0.01;
 
-/// A face stays larger than this share of what it is in the design where it is smaller.
+/// Minimum area of a face, as a fraction of its smaller area in the two designs (heuristic).
 const FACE: f64 = 0.125;
 
-/// A push beyond this share of the diameter helps nobody.
+/// Largest displacement, as a fraction of the mesh diameter; beyond it the attempt is abandoned
+/// (heuristic).
 const FARTHEST: f64 = 0.25;
 
-/// Times from 0 to 1, and what all vertices are moved by then.
+/// Times from 0 to 1, each with the displacements of all vertices.
 pub(super) type GuardDisplacements = Vec<(f64, Vec<DVec2>)>;
 
-/// What vertices are moved by at these times, which run from 0 to 1; none where they
-/// cannot be kept apart by pushing.
+/// Returns the displacements of all vertices at `times`, which run from 0 to 1; `None` if
+/// displacements do not suffice to avoid collisions.
+///
+/// # Errors
+/// If the work is cancelled.
 pub(super) fn through(
     film: &Arap,
     outlines: &GuardedOutlines,
@@ -41,7 +47,7 @@ pub(super) fn through(
     let Ok(yielding) = MeshCompliance::of(film) else {
         return Ok(None);
     };
-    // The last is a design, as is the first.
+    // The first and the last time show the designs, which are not displaced.
     let [first, steps @ .., last] = times else {
         return Ok(None);
     };
@@ -69,7 +75,8 @@ pub(super) fn through(
     Ok(Some(moved.chain([(*last, still)]).collect()))
 }
 
-/// Where vertices are when all that is near is apart.
+/// State after one step: original positions, displacements, and the displaced positions, in which
+/// all close pairs are apart.
 struct GuardMoment {
     t: f64,
     plain: Vec<DVec2>,
@@ -141,7 +148,8 @@ impl GuardStepper<'_> {
         })
     }
 
-    /// The direction in which a vertex is from an edge, turned with the edge.
+    /// Returns the direction from the edge to the vertex before the step, rotated with the edge to
+    /// its orientation after the step.
     fn line(&self, pair: GuardedPair, before: &GuardMoment, plain: &[DVec2]) -> DVec2 {
         let towards = self.outlines.towards(pair, &before.places);
         let along = |places: &[DVec2]| {
@@ -150,7 +158,8 @@ impl GuardStepper<'_> {
         };
         let (was, is) = (along(&before.plain), along(plain));
         if towards.length() <= self.outlines.touches() {
-            // Sides of a cut: each is outside of what the other bounds.
+            // The two sides of a cut touch, so their distance has no direction. The outward normal
+            // of the edge is used.
             return -is.perp();
         }
         let turn = DVec2::new(was.dot(is), was.perp_dot(is));
@@ -158,7 +167,8 @@ impl GuardStepper<'_> {
         turn.rotate(towards.normalize_or_zero())
     }
 
-    /// Turns the lines of what is apart, so that it may slide along.
+    /// Sets the separating direction of each pair that is apart to its current one, so that the
+    /// vertex can slide along the edge.
     fn turned(&self, lines: &mut BTreeMap<GuardedPair, DVec2>, places: &[DVec2]) {
         for (&pair, line) in lines.iter_mut() {
             let towards = self.outlines.towards(pair, places);
@@ -169,7 +179,8 @@ impl GuardStepper<'_> {
         }
     }
 
-    /// How far a vertex is on its side of an edge, by the nearer of its ends.
+    /// Returns how far the vertex is beyond both ends of the edge in the direction `line`; negative
+    /// if it is not beyond one of them.
     fn between(&self, pair: GuardedPair, line: DVec2, places: &[DVec2]) -> f64 {
         let p = places[self.outlines.vertex(pair) as usize];
         let [a, b] = self.outlines.edge(pair).map(|v| places[v as usize]);
@@ -202,7 +213,7 @@ impl GuardStepper<'_> {
         rows
     }
 
-    /// Faces that are about to turn over.
+    /// Adds a constraint for each face that is close to folding.
     fn faces(
         &self,
         plain: &[DVec2],
@@ -212,7 +223,7 @@ impl GuardStepper<'_> {
     ) {
         let mesh = self.film.mesh();
         for face in mesh.faces().iter() {
-            // What comes or goes keeps its form.
+            // A part that exists in only one design keeps its shape.
             let part = self.parts[face[0] as usize] as usize;
             if self
                 .film
@@ -250,8 +261,8 @@ impl GuardStepper<'_> {
     }
 }
 
-/// What is asked of a pair or a face that has so much by itself: where that is enough,
-/// no more than it has.
+/// Returns the value that is required of a clearance or an area. If the original motion has a
+/// positive value below `wanted`, that value suffices, but at least a quarter of `wanted`.
 fn asked(wanted: f64, by_itself: f64) -> f64 {
     if by_itself > 0.0 {
         wanted.min(by_itself.max(0.25 * wanted))

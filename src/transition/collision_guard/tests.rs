@@ -1,3 +1,5 @@
+//! Tests the collision avoidance with squares that pass, overlap or appear.
+
 use super::*;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::Side;
@@ -5,11 +7,12 @@ use crate::transition::transients::layers::PieceLayers;
 use crate::warp::{ArapOptions, TimeWindow};
 use crate::work::progress::Silent;
 
-/// A square on its corner about a point, from which its corners are so far in either
-/// design.
+/// For source and target, the centre of a square that stands on a corner, and the distance of its
+/// corners from the centre.
 type MovingSquare = [(DVec2, f64); 2];
 
-/// Squares above a long bar, which keeps the whole from turning.
+/// Builds the motion of several squares above a long bar, which prevents the whole design from
+/// rotating.
 fn film(squares: &[MovingSquare], lives: &[Option<TimeWindow>]) -> Arap {
     let corners = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y];
     let bar = [[-30.0, -29.0], [30.0, -29.0], [30.0, -11.0], [-30.0, -11.0]];
@@ -46,7 +49,8 @@ fn is_proved(film: &Arap, drawn: &DrawnPieces) -> bool {
     trouble.expect("a film that settles").is_none()
 }
 
-/// One goes to the right, the other to the left, so far above.
+/// Two squares pass each other: one moves to the right, the other to the left at the height
+/// `above`.
 fn passing(above: f64) -> Arap {
     let x = DVec2::new(5.0, 0.0);
     let up = DVec2::new(0.0, above);
@@ -80,7 +84,7 @@ fn what_would_graze_is_moved_aside_and_no_more() {
     for t in [0.0, 1.0] {
         assert_eq!(at(&guarded, t), at(&plain, t), "{t}");
     }
-    // Both give way, by half of what they overlap and of what they are kept apart.
+    // Each square yields by half of the overlap plus half of the clearance.
     let farthest = guarded.max_guard_displacement().expect("a guard") * plain.mesh().diameter();
     assert!((0.05..0.5).contains(&farthest), "{farthest}");
     let [was, is] = [&plain, &guarded].map(|film| at(film, 0.5));
@@ -111,8 +115,7 @@ fn backwards_it_is_the_film_of_the_exchanged_designs() {
 
 #[test]
 fn what_goes_all_the_way_through_stays_as_it_is() {
-    // Each is in the other's place: past each other there is a way, but through a bar
-    // there is none.
+    // The square moves to the other side of the bar, and there is no way around the bar.
     let y = DVec2::new(0.0, 1.0);
     let plain = film(&[[(y * 6.0, 1.0), (y * -46.0, 1.0)]], &[]);
     let drawn = DrawnPieces::of(2, &[], &PieceLayers::default());
@@ -140,7 +143,7 @@ fn what_is_born_on_the_way_of_another_waits() {
     let drawn = DrawnPieces::of(3, &[], &PieceLayers::default());
     let unproved = FailedProof::of_drawn(&plain, drawn.clone(), &Silent).expect("nobody cancels");
     let unproved = unproved.expect("it is run over");
-    // From either end it is the first thing that is met, and the last.
+    // The first collision from t = 0 is also the last one, seen from t = 1.
     let met = unproved.births();
     assert!(
         met.len() == 2 && met[0] >= born.from && met[0] < met[1],

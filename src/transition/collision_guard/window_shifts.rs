@@ -1,30 +1,31 @@
-//! Parts of one design alone, which are born later or die earlier where they would
-//! meet something.
+//! Shortens the time window of a part that exists in only one design and collides.
 //!
-//! Where and when they come and go was chosen by what is seen at steps
-//! ([`crate::transition::transients::placement`]); what is between those is known to the proof.
+//! The windows were chosen from collisions at sample times
+//! ([`crate::transition::transients::placement`]). The proof also finds collisions between those
+//! times.
 
 use super::defects::FirstDefect;
 use crate::geometry::Side;
 use crate::warp::{Arap, TimeWindow};
 
-/// How much later or earlier, as a share of the film.
+/// Time between a collision and the new start or end of the window (heuristic).
 const SHIFT: f64 = 1.0 / 64.0;
 
-/// A part changes its size in so much of the film at least.
+/// Minimum length of a time window (heuristic).
 const SHORTEST: f64 = 1.0 / 16.0;
 
-/// What can be done about a part that comes or goes and meets something.
+/// Result of shortening the window of a colliding part.
 pub(super) enum WindowShift {
-    /// The lives of all parts, with that of one begun after the trouble, or ended before.
+    /// The windows of all parts. The window of one part now starts after the collision or ends
+    /// before it.
     To(Vec<Option<TimeWindow>>),
-    /// It has no time left.
+    /// The window would be shorter than the minimum.
     TooShort,
-    /// No part of one design alone is in it.
+    /// The defect involves no part that exists in only one design.
     NotTransient,
 }
 
-/// What can be done about a trouble by shifting lives.
+/// Shortens the window of a part that collides in the given defect.
 pub(super) fn shifted(film: &Arap, trouble: &FirstDefect) -> WindowShift {
     let Some(meeting) = trouble.meeting else {
         return WindowShift::NotTransient;
@@ -46,7 +47,7 @@ pub(super) fn shifted(film: &Arap, trouble: &FirstDefect) -> WindowShift {
         Some((piece, next))
     };
     let long = |life: &TimeWindow| life.to - life.from;
-    // Of two that which keeps more of its time.
+    // If both parts can be shortened, the one whose remaining window is longer is chosen.
     let longer =
         |a: &(usize, TimeWindow), b: &(usize, TimeWindow)| long(&a.1).total_cmp(&long(&b.1));
     match both.iter().filter_map(shifted).max_by(longer) {

@@ -1,12 +1,11 @@
-//! The boundaries in a film of what both designs have.
+//! Boundary loops of the matched parts, which exist in both designs.
 
 use super::layered_outline::LayeredOutline;
 use super::layers::PieceLayers;
 use crate::geometry::DVec2;
 use crate::warp::Arap;
 
-/// The boundary walks of the parts of a film that both designs have, and the
-/// piece that each belongs to.
+/// Boundary loops of the matched parts of a motion, each with the index of its piece.
 pub(in crate::transition) struct SharedPartLoops {
     walks: Vec<Vec<u32>>,
     pieces: Vec<usize>,
@@ -25,12 +24,12 @@ impl SharedPartLoops {
         Self { walks, pieces }
     }
 
-    /// For each walk the piece that it belongs to.
+    /// Returns the index of the piece of each loop.
     pub(in crate::transition) fn pieces(&self) -> &[usize] {
         &self.pieces
     }
 
-    /// The walks as outlines on their levels.
+    /// Returns the loops at the given vertex positions, as outlines on their layers.
     pub(in crate::transition) fn outlines(
         &self,
         places: &[DVec2],
@@ -41,7 +40,7 @@ impl SharedPartLoops {
         rings.map(outline).collect()
     }
 
-    /// Where the walks are.
+    /// Returns the loops at the given vertex positions.
     pub(in crate::transition) fn rings(&self, places: &[DVec2]) -> Vec<Vec<DVec2>> {
         let ring = |walk: &Vec<u32>| walk.iter().map(|&v| places[v as usize]).collect();
         self.walks.iter().map(ring).collect()

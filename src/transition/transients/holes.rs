@@ -1,10 +1,11 @@
-//! Holes that one design has alone, and which the film moves as if they were
-//! not there: where they are in it, and when they come and go.
+//! Holes that exist in only one design and do not affect the motion: their position and time
+//! window.
 //!
-//! The largest first, each takes, of the times in which it crosses no boundary and no hole
-//! that has its time, the one that suits the timetable best; one that cannot keeps the time
-//! in which it crosses least, and the others make way. Looked at at a few steps: what is
-//! crossed between two is missed.
+//! Holes choose their windows one after the other, the largest first. Each takes the window that
+//! suits the schedule best among those in which it crosses no boundary and no hole placed before
+//! it. If every window has a crossing, the hole takes the one with the fewest, and the other holes
+//! then choose again and avoid it. Crossings are detected only at sample times; those between two
+//! sample times are missed.
 
 use super::boundary_loops::SharedPartLoops;
 use super::layered_outline::LayeredOutline;
@@ -19,18 +20,21 @@ use crate::warp::{Arap, Placer, TimeWindow, Warp};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
 
-/// How often holes make way: the pairs of icons and of glyphs that need it take one, and
-/// each time costs as much as the first.
+/// Maximum number of times that the holes choose again (resource limit: each takes as long as the
+/// first choice).
 const MAKING_WAY: u32 = 3;
 
-/// What it costs in the plan to cross anything: more than a film can be restless.
+/// Cost of a window in which a hole crosses something, compared with overshoot (heuristic).
 const CROSSING: f64 = 10.0;
 
-/// A hole, and the number of the piece that it is in.
+/// Index of a piece, and a hole in it that exists in only one design.
 pub(in crate::transition) type PieceHole = (usize, TransientHole);
 
-/// All holes that one design has alone, in their times. Piece k is component k
-/// of the film's mesh.
+/// Returns all holes that exist in only one design, with windows that are as long as possible.
+/// Piece k is component k of the mesh of `film`.
+///
+/// # Errors
+/// If the work is cancelled.
 pub(in crate::transition) fn timed(
     pieces: &[PieceMatch],
     film: &Arap,
@@ -42,7 +46,11 @@ pub(in crate::transition) fn timed(
     timed_by(pieces, film, levels, &long, progress)
 }
 
-/// The same, in times that suit those of what else comes and goes.
+/// Returns all holes that exist in only one design, with windows chosen from the schedule that
+/// `timetable` creates for them.
+///
+/// # Errors
+/// If the work is cancelled.
 pub(in crate::transition) fn timed_by(
     pieces: &[PieceMatch],
     film: &Arap,
@@ -67,7 +75,8 @@ pub(in crate::transition) fn timed_by(
         let lives = scene.lives((&holes, &order), levels, timetable.clone(), progress)?;
         let crossed = lives.iter().map(|(_, _, crossed)| crossed).sum();
         let late = lives.iter().position(|&(_, _, crossed)| crossed > 0);
-        // The first that crosses something comes before the others.
+        // The first hole with a crossing chooses before all others next time and keeps its window.
+        // If it already chose first, nothing can improve.
         let late = late.filter(|&late| late > 0);
         if let Some(late) = late {
             order[late].1 = Some(lives[late].1);
@@ -86,8 +95,8 @@ pub(in crate::transition) fn timed_by(
     Ok(holes)
 }
 
-/// All holes that one design has alone, in times that are known already, in
-/// this order; none if there are not as many.
+/// Returns all holes that exist in only one design, with the given windows in this order; `None` if
+/// their number or designs differ from those of the windows.
 pub(in crate::transition) fn with_lives(
     pieces: &[PieceMatch],
     mesh: &CompatibleMesh,
@@ -104,8 +113,8 @@ pub(in crate::transition) fn with_lives(
     Some(holes)
 }
 
-/// The largest first. Of equal ones the order of the pieces decides, which a
-/// film run backwards has as well.
+/// Returns all holes with the window [0, 1], the largest first. Holes of equal area are in the
+/// order of their pieces, which is the same when the designs are swapped.
 fn untimed(pieces: &[PieceMatch], mesh: &CompatibleMesh) -> Vec<PieceHole> {
     if pieces.iter().all(|piece| piece.lone.is_empty()) {
         return Vec::new();
@@ -127,11 +136,12 @@ fn untimed(pieces: &[PieceMatch], mesh: &CompatibleMesh) -> Vec<PieceHole> {
     holes
 }
 
-/// What is there at each step within the film.
+/// Positions and outlines at the sample times between t = 0 and t = 1.
 struct HoleScene {
     times: Vec<f64>,
-    /// Where all vertices are.
+    /// Positions of all vertices at each time.
     places: Vec<Vec<DVec2>>,
+    /// Outlines of the matched parts, and of the holes placed so far, at each time.
     outlines: Vec<Vec<LayeredOutline>>,
 }
 
@@ -155,8 +165,9 @@ impl HoleScene {
         }
     }
 
-    /// The holes in an order, when each is there if they choose in it, but for those of
-    /// which that is known, and at how many steps each then crosses anything.
+    /// Lets the holes choose their windows in the given order; a hole with a window in `order`
+    /// keeps it. Returns the index of each hole, its window, and the number of times at which it
+    /// crosses something.
     fn lives(
         &mut self,
         (holes, order): (&[PieceHole], &[(usize, Option<TimeWindow>)]),
@@ -184,7 +195,7 @@ impl HoleScene {
         Ok(lives)
     }
 
-    /// What each of the times costs a hole that are chosen from.
+    /// Returns the collision cost of each candidate window of a hole.
     fn prices(&self, hole: &TransientHole, level: usize) -> Vec<f64> {
         let price = |life: TimeWindow| {
             let mut hole = hole.clone();
@@ -195,7 +206,8 @@ impl HoleScene {
         lives.into_par_iter().map(price).collect()
     }
 
-    /// The first of the times in which a hole crosses least, or the one that is known.
+    /// Returns the first window with the fewest crossings, and their number; only `known` is
+    /// considered if it is given.
     fn life(
         &self,
         hole: &TransientHole,
@@ -216,7 +228,8 @@ impl HoleScene {
         (best.1, best.0)
     }
 
-    /// The number of steps at which it crosses something or itself, counted on to `most`.
+    /// Returns the number of times, at most `most`, at which the hole crosses itself or something
+    /// else.
     fn crossed(&self, hole: &TransientHole, level: usize, most: usize) -> usize {
         let steps = self
             .times

@@ -1,15 +1,18 @@
-//! Which pieces of a film are in each other's way: those that are painted alike.
+//! Layers of pieces: pieces on the same layer must not collide, because they are painted alike.
 
 use crate::correspondence::{PartAppearances, PieceMatch, RegionMatch};
 use crate::geometry::Side;
 use std::collections::BTreeMap;
 
-/// For each piece of a match its level: what is on one goes from one coat to one
-/// coat, and is in each other's way; what is not passes over or under.
+/// Layers of the pieces of a match. A layer is a pair of paint layers, one of the source and one of
+/// the target. Pieces on the same layer must not collide; pieces on different layers pass over or
+/// under each other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::transition) struct PieceLayers {
+    /// For each piece, the index of its layer.
     of_pieces: Vec<usize>,
-    /// For each level its coats in source and target.
+    /// For each layer, the indices of its paint layers in source and target; `None` if there is
+    /// none.
     pub(in crate::transition) layers: Vec<[Option<usize>; 2]>,
 }
 
@@ -19,7 +22,7 @@ impl PieceLayers {
         Self::of_parts(matched.pieces.iter().map(parts), looks)
     }
 
-    /// Of pieces that go from one part to one part.
+    /// Returns the layers of pieces that are given by their parts in source and target.
     pub(in crate::transition) fn of_parts(
         pieces: impl Iterator<Item = [Option<usize>; 2]>,
         looks: &PartAppearances,
@@ -28,7 +31,8 @@ impl PieceLayers {
             Side::BOTH.map(|side| parts[side].map(|part| looks.paint_layer(side, part)))
         };
         let mut of_pieces: Vec<[Option<usize>; 2]> = pieces.map(coats).collect();
-        // What is born or dies goes with most of its coat.
+        // A piece that exists in only one design joins the layer that most pieces of its paint
+        // layer belong to.
         let both: Vec<[Option<usize>; 2]> = of_pieces.clone();
         for own in &mut of_pieces {
             for side in Side::BOTH {
@@ -50,13 +54,14 @@ impl PieceLayers {
         }
     }
 
-    /// The level of a piece.
+    /// Returns the index of the layer of a piece.
     pub(in crate::transition) fn of_piece(&self, piece: usize) -> usize {
         self.of_pieces.get(piece).copied().unwrap_or(0)
     }
 }
 
-/// The coat that most pieces of a coat of one design go to in the other.
+/// Returns the paint layer of the other design to which most pieces of the paint layer `coat` of
+/// design `side` go; the lowest index if several are equally frequent.
 fn partner(pieces: &[[Option<usize>; 2]], side: Side, coat: Option<usize>) -> Option<usize> {
     let mut counts = BTreeMap::new();
     for piece in pieces.iter().filter(|piece| piece[side] == coat) {

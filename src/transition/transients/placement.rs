@@ -1,14 +1,14 @@
-//! Where and when the parts that one design has alone are born and die.
+//! Chooses the position and the time window of each part that exists in only one design.
 //!
-//! Such a part is a [`TransientPart`] in the other design, at a place that nobody
-//! drew, and is free to change its size within a time of its own; or it
-//! swells, which keeps it within its outline. All are chosen in the [`TransientScene`] so
-//! that it meets nothing as it grows: the largest part first, against the film of
-//! the parts that both designs have and of those placed before it.
+//! In the other design, such a part is a tiny seed shape ([`TransientPart`]), whose position is
+//! free. It grows from the seed shape, or shrinks to it, within its time window. Alternatively it
+//! swells: it then grows in thickness and stays within its own outline. Positions and windows are
+//! chosen such that the part collides with nothing ([`TransientScene`]). Parts are placed one after
+//! the other, the largest first, and avoid both the matched parts and the parts placed before them.
 //!
-//! Guaranteed: exchanging the designs gives the same places, and the times
-//! reversed, unless two parts are equal in size. Not guaranteed: that there
-//! is a free place; nor anything between the [`SampleTimes`] that are looked at.
+//! Guaranteed: swapping the designs gives the same positions and the reversed windows, unless two
+//! parts have equal area. Not guaranteed: that a position without collisions exists, or that
+//! nothing collides between the sample times ([`SampleTimes`]).
 
 mod anchor;
 mod scene;
@@ -28,18 +28,18 @@ use crate::transition::options::BuildQuality;
 use crate::warp::{Arap, TimeWindow};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
-/// Parts beyond so many are not searched a place for; each costs a look at all
-/// others at every step. Beyond 24, two of the 74 parts of an icon met.
+/// Parts beyond this rank (by size) get no position search (resource limit: each search examines
+/// all other parts at every sample time).
 const SEARCHED: usize = 100;
 
-/// When each piece changes its size, before anything is chosen: a part of one
-/// design alone all the time.
+/// Returns the initial time windows: [0, 1] for a piece that exists in only one design, `None` for
+/// a matched piece.
 pub(in crate::transition) fn lives(matched: &RegionMatch) -> Vec<Option<TimeWindow>> {
     let life = |piece: &PieceMatch| piece.only_side().map(TimeWindow::whole);
     matched.pieces.iter().map(life).collect()
 }
 
-/// When holes and parts come and go; the holes first.
+/// Creates the schedule of the holes and parts that exist in only one design, the holes first.
 pub(in crate::transition) fn timetable(
     matched: &RegionMatch,
     film: &Arap,
@@ -69,20 +69,21 @@ fn timetable_of(
     }
 }
 
-/// A match and its mesh with all that is born or dies in its place.
+/// A match and its mesh, with all parts that exist in only one design in their positions.
 pub(in crate::transition) struct PlacedTransients {
     pub matched: RegionMatch,
     pub mesh: CompatibleMesh,
-    /// When each piece changes its size, if it is born or dies.
+    /// For each piece, its time window; `None` for a matched piece.
     pub lives: Vec<Option<TimeWindow>>,
-    /// The pieces that swell.
+    /// Indices of the pieces that swell.
     pub swelling: Vec<usize>,
 }
 
-/// The match and the film's mesh with all parts that are born or die in their
-/// places and times; `None` where there are none. In a draft all grow, and in their own
-/// places: of 120 first films of icons 8 cross either way, and the slowest is there after
-/// 0.9 s and not after 1.3 s.
+/// Places all parts that exist in only one design. Returns `None` if there are none, or if rounding
+/// folds a face of the moved mesh. In a draft, no positions are searched and no part swells.
+///
+/// # Errors
+/// If the work is cancelled.
 pub(in crate::transition) fn placed(
     matched: &RegionMatch,
     film: &Arap,

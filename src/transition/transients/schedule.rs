@@ -1,14 +1,14 @@
-//! When what one design has alone comes and goes.
+//! Schedule of the parts and holes that exist in only one design: the time window of each.
 //!
-//! By itself each would take the whole film, which is calmest. All at once they are there
-//! together halfway: outlines turn as much as those of both designs together, and the area
-//! runs up with them, or down where they are holes. So their times are chosen together,
-//! for the film to be restless least, as [`Rating::unrest`](crate::measure::Rating::unrest)
-//! has it, among those that what both designs have leaves free. What then meets something
-//! else in its time takes the next best, and those that come after it know.
+//! A single such part looks best if it changes its size throughout the motion. If all do, they are
+//! all half visible halfway: the turning of the outlines is that of both designs together, and the
+//! area overshoots, or undershoots for holes. All windows are therefore chosen together, such that
+//! turning and area overshoot the two designs as little as possible
+//! ([`Rating::overshoot`](crate::measure::Rating::overshoot)). If a part collides in its window, it
+//! takes the next best one, and the parts that follow take that into account.
 //!
-//! Guaranteed: exchanging the designs gives the times reversed. Not guaranteed: that there
-//! are no better ones.
+//! Guaranteed: swapping the designs reverses the windows. Not guaranteed: that there is no better
+//! schedule.
 
 mod optimise;
 
@@ -22,30 +22,30 @@ use crate::warp::{Arap, Placer, TimeWindow, Warp};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// Even steps at which unrest is looked at.
+/// Number of equal steps of t over which the overshoot is measured (resource limit).
 const STEPS: usize = 64;
 
-/// What it costs to wait for the whole film, against turning or area beyond the ends by all
-/// of what they need. With twice as much the worst tenth of the turning of 60 pairs of icons
-/// is 0.14 instead of 0.13, with four times 0.24; with a fifth the area of one pair more runs
-/// by more than a fifth.
+/// Cost for each unit of t during which a part does not change its size, compared with the relative
+/// overshoot of turning or area (heuristic).
 const WAIT: f64 = 0.05;
 
-/// What it may cost that all come and go in order. Without it, of a plate that says SRG SSR
-/// the G goes first, then the second S, the last R.
+/// Maximum additional cost of a schedule in which parts of a word appear and disappear in reading
+/// order (heuristic).
 const ORDERLY: f64 = 0.05;
 
-/// Times are chosen among eighths of the film. What would meet something in all of them may
-/// take shorter ones, each for this more: it is seen to jump, which is less bad. Were they
-/// chosen for calm, a wave within headphones would be there all at once, at the end.
+/// Lengths, in units of t, of two extra windows for a part that collides in all windows of whole
+/// eighths (heuristic). The part visibly jumps, which is less bad than a collision.
 const JUMPS: [f64; 2] = [1.0 / 16.0, 1.0 / 32.0];
+/// Additional cost of the windows in [`JUMPS`]: once for the first, twice for the second
+/// (heuristic).
 const JUMP: f64 = 0.125;
 
-/// What costs less than this apart costs the same: sums are rounded otherwise in the film run
-/// backwards.
+/// Costs are rounded to multiples of this, so that the reversed motion gives the same schedule
+/// (tolerance: above the rounding of the sums).
 const GRAIN: f64 = 1e-9;
 
-/// So much of the film, from the end where the design is that has what changes its size.
+/// Returns a window of length `long` that starts at t = 0 for a part of the source, and ends at
+/// t = 1 for a part of the target.
 pub(in crate::transition) fn life(side: Side, long: f64) -> TimeWindow {
     let whole = TimeWindow::whole(side);
     match side {
@@ -57,9 +57,8 @@ pub(in crate::transition) fn life(side: Side, long: f64) -> TimeWindow {
     }
 }
 
-/// The times that are chosen from, the longest first, and of equally long ones first that
-/// which begins or ends the film. Were there only those, the worst tenth of the area of 60
-/// pairs of icons would be 0.26 instead of 0.20.
+/// Returns the candidate windows: all that start and end at multiples of 1/8. The longest come
+/// first; among equally long ones, those at the part's own design.
 pub(in crate::transition) fn eighths(side: Side) -> impl Iterator<Item = TimeWindow> {
     let at = |eighths: u32| f64::from(eighths) / 8.0;
     let life = move |(long, kept): (u32, u32)| match side {
@@ -79,30 +78,29 @@ pub(in crate::transition) fn eighths(side: Side) -> impl Iterator<Item = TimeWin
         .map(life)
 }
 
-/// What comes or goes.
+/// A part or hole that exists in only one design.
 #[derive(Clone)]
 struct ScheduledTransient {
     growth: GrowthProfile,
-    /// By how much a hole's area is larger than in its design for what it is in being
-    /// larger, at each step; nothing stretches a part.
+    /// For a hole, at each step: the area of the unshrunken hole as a multiple of its area in its
+    /// design. `None` for a part, which is not stretched.
     stretch: Option<Vec<f64>>,
-    /// Where its middle is in its design.
+    /// Centre of the part or hole in its design.
     place: DVec2,
     life: TimeWindow,
-    /// What each of the times costs that are chosen from, for what is in its way; nothing
-    /// does where that is not known.
+    /// Collision cost of each candidate window; empty if unknown.
     prices: Vec<f64>,
 }
 
 impl ScheduledTransient {
-    /// What its time costs by itself.
+    /// Returns the cost of the window apart from overshoot: waiting time and collisions.
     fn price(&self) -> f64 {
         let mut priced = eighths(self.life.side).zip(&self.prices);
         let price = priced.find(|(life, _)| *life == self.life);
         WAIT * wait(self.life) + price.map_or(0.0, |(_, price)| *price)
     }
 
-    /// The same in another time.
+    /// Returns the same part with another window.
     fn within(&self, life: TimeWindow) -> Self {
         Self {
             life,
@@ -110,7 +108,7 @@ impl ScheduledTransient {
         }
     }
 
-    /// Adds its turning and area to those at each step, so often.
+    /// Adds `times` times the turning and area of the part to the sums at each step.
     fn add(&self, sums: &mut [[f64; 2]], times: f64) {
         let last = sums.len().saturating_sub(1) as f64;
         for (k, sum) in sums.iter_mut().enumerate() {
@@ -125,17 +123,19 @@ impl ScheduledTransient {
     }
 }
 
-/// Times of all that comes and goes, first of holes and then of parts.
+/// Time windows of all parts and holes that exist in only one design: first the holes, then the
+/// parts.
 #[derive(Clone)]
 pub(in crate::transition) struct TransientSchedule {
     coming: Vec<ScheduledTransient>,
-    /// Turning and area of all there is, at each step; of nothing where each takes as long
-    /// as it can.
+    /// At each step, the turning and the area of everything that is drawn; empty if the windows are
+    /// not optimised.
     sums: Vec<[f64; 2]>,
 }
 
 impl TransientSchedule {
-    /// In which each takes as long as it can, whatever the others do.
+    /// Creates a schedule in which each part or hole uses the longest window in which it does not
+    /// collide, regardless of the others.
     pub(in crate::transition) fn long(sides: impl Iterator<Item = Side>) -> Self {
         let coming = sides.map(|side| ScheduledTransient {
             growth: GrowthProfile::NONE,
@@ -150,8 +150,9 @@ impl TransientSchedule {
         }
     }
 
-    /// The same, with what the film has beside them, for times to be planned. Parts are the
-    /// designs that have them, where, and their rings there.
+    /// Creates a schedule to be optimised. It takes into account the turning and area of the
+    /// matched parts of `film`. Each item of `parts` holds the design that has the part, its
+    /// position there, and its rings about that position.
     pub(in crate::transition) fn of<'a>(
         film: &Arap,
         holes: impl Iterator<Item = &'a TransientHole>,
@@ -159,7 +160,8 @@ impl TransientSchedule {
     ) -> Self {
         let (holes, parts): (Vec<_>, Vec<_>) = (holes.collect(), parts.collect());
         let of_parts = parts.iter().map(|(_, _, rings)| rings.len());
-        // What is gone is a point to what counts outlines.
+        // The turning counts each outline as at least one turn. An absent outline counts as a
+        // point, so that the count does not change.
         let points = TAU * (holes.len() + of_parts.sum::<usize>()) as f64;
         let diameter = film.mesh().diameter();
         let walks = SharedPartLoops::of(film);
@@ -201,9 +203,9 @@ impl TransientSchedule {
         all
     }
 
-    /// What each of the times costs one of them beyond the least of them, the least first,
-    /// while the others keep theirs. The time that it has counts less, by what the order
-    /// may cost.
+    /// Returns the candidate windows with their costs above the cheapest, in increasing order,
+    /// while all other windows are fixed. The current window is cheaper by [`ORDERLY`], so that
+    /// reading order is kept. The short windows of [`JUMPS`] come last.
     pub(in crate::transition) fn ranked(&self, k: usize) -> Vec<(f64, TimeWindow)> {
         let (now, mut ranked) = (self.coming[k].life, self.costs(k));
         for (cost, life) in &mut ranked {
@@ -218,14 +220,16 @@ impl TransientSchedule {
         ranked
     }
 
-    /// What each of the times costs one of them, the longest first.
+    /// Returns the cost of each candidate window while all other windows are fixed, in the order of
+    /// [`eighths`].
     fn costs(&self, k: usize) -> Vec<(f64, TimeWindow)> {
         let (coming, rest) = (&self.coming[k], self.without(k));
         let cost = |life| (cost(&coming.within(life), &rest), life);
         eighths(coming.life.side).map(cost).collect()
     }
 
-    /// What it costs more that one of them grows in another way in one of the times.
+    /// Returns the additional cost if a part has another growth profile in the given window; at
+    /// least 0.
     pub(in crate::transition) fn extra(
         &self,
         k: usize,
@@ -237,21 +241,21 @@ impl TransientSchedule {
         (cost(&ScheduledTransient { growth, ..coming }, &rest) - plain).max(0.0)
     }
 
-    /// One has got its time.
+    /// Sets the window of a part or hole.
     pub(in crate::transition) fn set(&mut self, k: usize, life: TimeWindow) {
         self.coming[k].add(&mut self.sums, -1.0);
         self.coming[k].life = life;
         self.coming[k].add(&mut self.sums, 1.0);
     }
 
-    /// And grows in another way.
+    /// Sets the growth profile of a part or hole.
     pub(in crate::transition) fn set_growth(&mut self, k: usize, growth: GrowthProfile) {
         self.coming[k].add(&mut self.sums, -1.0);
         self.coming[k].growth = growth;
         self.coming[k].add(&mut self.sums, 1.0);
     }
 
-    /// Turning and area at each step of all but one.
+    /// Returns the turning and area at each step without one part or hole.
     fn without(&self, k: usize) -> Vec<[f64; 2]> {
         let mut sums = self.sums.clone();
         self.coming[k].add(&mut sums, -1.0);
@@ -268,7 +272,7 @@ impl TransientSchedule {
     }
 }
 
-/// What it costs that one is there beside all others.
+/// Returns the cost of one part or hole in addition to the sums of all others.
 fn cost(coming: &ScheduledTransient, others: &[[f64; 2]]) -> f64 {
     let mut sums = others.to_vec();
     coming.add(&mut sums, 1.0);
@@ -276,12 +280,12 @@ fn cost(coming: &ScheduledTransient, others: &[[f64; 2]]) -> f64 {
     (cost / GRAIN).round() * GRAIN
 }
 
-/// The share of the film in which it does not change.
+/// Returns the fraction of the motion during which the part does not change its size.
 fn wait(life: TimeWindow) -> f64 {
     1.0 - (life.to - life.from)
 }
 
-/// Turning and area beyond what the ends need, as shares.
+/// Returns the overshoot of turning and area beyond the two designs, as the sum of two fractions.
 fn unrest(sums: &[[f64; 2]]) -> f64 {
     if sums.is_empty() {
         return 0.0;

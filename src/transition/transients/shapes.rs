@@ -1,4 +1,4 @@
-//! How the parts of a film are drawn that one of the designs has alone.
+//! Shapes that are drawn for the parts that exist in only one design.
 
 use crate::compatible::CompatibleMesh;
 use crate::content::{SeedShape, SwellingShape};
@@ -7,8 +7,8 @@ use crate::warp::{Arap, TimeWindow};
 use rayon::iter::Either;
 use rayon::prelude::*;
 
-/// The parts that swell, which are the pieces with these numbers and connected
-/// parts of the film's mesh, and those that grow.
+/// Returns the parts that swell, and the parts that grow from a seed shape. `swelling` contains the
+/// indices of the pieces that swell; piece k is component k of the mesh.
 pub(in crate::transition) fn drawn(
     film: &Arap,
     swelling: &[usize],
@@ -30,12 +30,13 @@ pub(in crate::transition) fn drawn(
             }),
         })
     };
-    // How thick each is takes some time.
+    // In parallel, because the thickness of a swelling part takes long to compute.
     let lives = film.time_windows().par_iter().enumerate();
     lives.filter_map(drawn).partition_map(|drawn| drawn)
 }
 
-/// A part of these walks that swells; none of one without a boundary.
+/// Creates a swelling part from its boundary loops, given by their indices in `loops`; `None` if
+/// there are none.
 fn swell(
     mesh: &CompatibleMesh,
     loops: &[Vec<u32>],
@@ -45,7 +46,7 @@ fn swell(
     let places = [mesh.source(), mesh.target()][life.side];
     let ring = |&walk: &usize| loops[walk].iter().map(|&v| places[v as usize]).collect();
     let mut rings: Vec<Vec<DVec2>> = walks.iter().map(ring).collect();
-    // The outer walk first, by which it is placed.
+    // The outer loop comes first, because it places the shape.
     let outer = |k: &usize| signed_area(&rings[*k]);
     let first = (0..walks.len()).max_by(|a, b| outer(a).total_cmp(&outer(b)))?;
     walks.swap(0, first);

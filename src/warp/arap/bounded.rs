@@ -1,29 +1,27 @@
-//! Local maps that are never sheared more than at the worse end.
+//! Local maps whose distortion (ratio of singular values) never exceeds that at the worse end.
 //!
-//! Chen, Weber, Keren, Ben-Chen, "Planar shape interpolation with bounded
-//! distortion" (2013): squared edge lengths run evenly, l²(t) = (1−t) l₀² + t l₁²,
-//! so that the metric of a face is (1−t) I + t MᵀM. It is never sheared more than
-//! M; but faces of such metrics lie together on no plane. They are flattened without
-//! shearing them further (`flat`: discrete conformal equivalence; Springborn,
-//! Schröder, Pinkall 2008), laid out side by side (`layout`), and the map of
-//! each face is read off: the energy integrates these as those of any homotopy.
-//! Where faces lie around no hole they fit together exactly.
+//! Chen, Weber, Keren, Ben-Chen, "Planar shape interpolation with bounded distortion" (2013):
+//! squared edge lengths change linearly, l²(t) = (1−t) l₀² + t l₁², so that a face with the map M
+//! has the metric (1−t) I + t MᵀM. Its distortion never exceeds that of M, but faces with such
+//! metrics do not fit together in the plane. They are flattened conformally (`flat`: discrete
+//! conformal equivalence; Springborn, Schröder, Pinkall 2008) and laid out face by face (`layout`).
+//! The energy then integrates the resulting maps like those of any homotopy. Within a sheet without
+//! holes they fit together exactly.
 //!
-//! What is free is one rotation for each sheet of faces that share edges. It is the
-//! one with which the faces turn as by the polar homotopy in the mean, seen from
-//! both designs alike, so that whole turns are kept.
+//! A sheet is a set of faces connected by shared edges. One rotation per sheet is left free. It is
+//! chosen such that, on average, the faces rotate as in the polar homotopy, seen equally from both
+//! designs. Whole turns are therefore preserved.
 //!
-//! Guaranteed: where it is said so, each sheet is flat at every t that was tried; the
-//! maps of the exchanged designs are those that run back. Not guaranteed: that a flat
-//! triangle is sheared no more than its metric. Discrete conformal maps scale the
-//! corners of a face unlike, the more so the larger the face; and around a hole the
-//! maps need not close.
+//! Guaranteed: a sheet that is marked flat could be flattened at every tested t; swapping the
+//! designs gives the reversed maps. Not guaranteed: that a flattened triangle is distorted no more
+//! than its metric, because discrete conformal maps scale the corners of a face differently, the
+//! more so the larger the face; nor that the maps fit together around a hole.
 //!
-//! What is sheared more than at the worse end for all that is found here (`excess`), and
-//! put back by who solves.
+//! The module `excess` finds faces that exceed the bound even so, and the frame solver corrects
+//! them.
 //!
-//! A sheet that cannot be flattened takes the metric of each face by itself,
-//! [`Homotopy::Bounded`] as it is written there, and that is told.
+//! In a sheet that cannot be flattened, each face follows its own metric ([`Homotopy::Bounded`]).
+//! The number of such sheets is reported.
 
 mod excess;
 mod flat;
@@ -42,49 +40,49 @@ use layout::BoundedFace;
 use sheet::FaceSheet;
 use std::sync::OnceLock;
 
-/// Even steps at which it is tried whether a sheet can be flattened.
+/// Number of equal steps of t at which flattening is tested (resource limit).
 const TRIED: u32 = 16;
 
-/// All sheets of a mesh.
+/// All sheets of a mesh. A sheet is a set of faces connected by shared edges.
 #[derive(Debug)]
 pub(super) struct Bounded {
     sheets: Vec<BoundedSheet>,
 }
 
-/// A sheet, and what its maps act on.
+/// A sheet with its faces.
 #[derive(Debug)]
 struct BoundedSheet {
     sheet: FaceSheet,
-    /// In the order of the sheet.
+    /// The faces, in the order of the sheet.
     faces: Vec<BoundedFace>,
-    /// Whether it was flat wherever it was tried.
+    /// Whether the sheet could be flattened at all tested times.
     is_flat: bool,
-    /// How much its worst face is sheared between the designs.
+    /// Largest distortion (ratio of singular values) of a face between the designs; at least 1.
     sheared: f64,
-    /// What has to be asked of each face for it to give way as it should, once it is
-    /// known.
+    /// For each face, the matrix by which a requested change of its map must be multiplied for the
+    /// map to change as requested; computed on first use.
     unyielding: Vec<OnceLock<DMat2>>,
 }
 
-/// A face that is sheared more than at the worse end.
+/// A face that exceeds the distortion bound: index of its sheet, and index within the sheet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beyond {
     sheet: usize,
     face: usize,
 }
 
-/// The memory that the maps of a frame take, a sheet each.
+/// Memory for the maps of a frame, one entry per sheet.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     sheets: Vec<OfSheet>,
-    /// What is sheared too much, and what it lacks.
+    /// Faces that exceed the bound, each with the change that its map needs.
     pub(super) beyond: Vec<(Beyond, DMat2)>,
 }
 
 #[derive(Debug)]
 struct OfSheet {
     flattening: Flattening,
-    /// Of each face of the sheet.
+    /// For each face of the sheet, its map.
     maps: Vec<DMat2>,
 }
 
@@ -112,7 +110,7 @@ impl Bounded {
         }
     }
 
-    /// How many sheets could not be flattened.
+    /// Returns the number of sheets that could not be flattened.
     pub(super) fn unflattened(&self) -> usize {
         self.sheets.iter().filter(|whole| !whole.is_flat).count()
     }
@@ -128,7 +126,7 @@ impl Bounded {
         }
     }
 
-    /// Adds M(t) W g of each face to its corners.
+    /// Adds M(t) W g of each face to the forces on its corners.
     pub(super) fn add(&self, times: EvaluationTimes, memory: &mut Memory, forces: &mut [DVec2]) {
         for (whole, memory) in self.sheets.iter().zip(&mut memory.sheets) {
             let t = times.of_vertex(whole.faces[0].corners[0] as usize);
@@ -141,8 +139,8 @@ impl Bounded {
 }
 
 impl Bounded {
-    /// Finds what is sheared more than at the worse end, of what deviates so from the
-    /// straight line: nothing at the ends themselves and beyond.
+    /// Finds the faces that exceed the distortion bound and stores them in `memory`. `deviation`
+    /// returns the deviation of a vertex from its straight path. Finds nothing unless 0 < t < 1.
     pub(super) fn find_beyond(
         &self,
         times: EvaluationTimes,
@@ -160,7 +158,8 @@ impl Bounded {
         }
     }
 
-    /// What the map of a face lacks where it is sheared more than at the worse end.
+    /// Returns the change that the map of a face needs to satisfy the distortion bound; `None` if
+    /// it satisfies it.
     pub(super) fn lacking(
         &self,
         Beyond { sheet, face }: Beyond,
@@ -181,9 +180,9 @@ impl Bounded {
         &self.sheets[sheet].faces[face]
     }
 
-    /// What has to be asked of a face alone for its map to change as it should; the
-    /// identity where it does not give way at all. `answer` is how it changes where it is
-    /// asked for that.
+    /// Returns the matrix by which a requested change must be multiplied for the map of a face to
+    /// change as requested; the identity if the face does not yield at all. `answer` returns the
+    /// change of the map when the identity is requested.
     pub(super) fn unyielding(
         &self,
         Beyond { sheet, face }: Beyond,
@@ -195,7 +194,7 @@ impl Bounded {
 }
 
 impl BoundedSheet {
-    /// The maps of all faces at t.
+    /// Computes the maps of all faces at t.
     fn maps(&self, t: f64, memory: &mut OfSheet) {
         let OfSheet { flattening, maps } = memory;
         if !self.is_flat || !(0.0..=1.0).contains(&t) {
@@ -204,7 +203,7 @@ impl BoundedSheet {
             }
             return;
         }
-        // Whatever comes of it is drawn: it was tried nearby.
+        // The result is used even if it is not flat: flattening succeeded at times nearby.
         flattening.flatten(&self.sheet, t);
         layout::laid_out(&self.sheet, &self.faces, flattening.corners(), maps);
         layout::turn_along(&self.faces, t, maps);

@@ -1,8 +1,8 @@
-//! Vertices that are moved a little beside the film, where it would meet itself.
+//! Displacements of vertices that are added to a motion so that its outlines do not collide.
 //!
-//! What they are moved by is known at some times and zero at the first and last of
-//! them; between those it is the cubic with Catmull and Rom's velocities, so that
-//! nothing jerks. Outside of these times the film is the plain one, bit for bit.
+//! Displacements are given at several times and are zero at the first and the last of these. In
+//! between, they follow cubic curves with the velocities of Catmull and Rom, so that the motion has
+//! no jerks. Outside the time span, the motion is unchanged, bit for bit.
 
 use crate::geometry::DVec2;
 use crate::mesh::Subdivision;
@@ -11,19 +11,19 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// By how much vertices are moved, and when.
+/// Displacements of vertices at several times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Guard {
-    /// Increasing, within [0, 1].
+    /// Times in increasing order, within [0, 1].
     times: Vec<f64>,
-    /// The vertices that are moved at any time, increasing.
+    /// Indices of the vertices that are displaced at any time, in increasing order.
     vertices: Vec<u32>,
-    /// Of each time what each of them is moved by. Rounded: a guard is kept with the
-    /// document, and it is as rounded that it is proved.
+    /// For each time, the displacement of each of these vertices. In single precision, as in the
+    /// saved document, so that the proof covers the saved values.
     moved: Vec<Vec<Vec2>>,
 }
 
-/// The rows around a time, and how much each of them counts.
+/// The four times around a time t, and the weights of their displacements.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GuardMix {
     rows: [usize; 4],
@@ -31,9 +31,9 @@ pub(super) struct GuardMix {
 }
 
 impl Guard {
-    /// From what every vertex is moved by at each time. None where the times do not
-    /// increase within [0, 1], nothing is moved, the rows differ in length or are not
-    /// finite, or the first and the last are not zero.
+    /// Creates a guard from the displacements of all vertices at each time. Returns `None` if the
+    /// times do not increase within [0, 1], nothing is displaced, the rows differ in length or are
+    /// not finite, or the first or the last row is not zero.
     pub(crate) fn new(times: Vec<f64>, rows: &[Vec<DVec2>]) -> Option<Self> {
         let count = rows.first()?.len();
         if rows.iter().any(|row| row.len() != count) {
@@ -53,7 +53,7 @@ impl Guard {
         guard.is_sound(count).then_some(guard)
     }
 
-    /// Whether it is a guard of so many vertices.
+    /// Returns whether the guard is valid for a mesh with `vertex_count` vertices.
     pub(crate) fn is_sound(&self, vertex_count: usize) -> bool {
         let [first, .., last] = self.moved.as_slice() else {
             return false;
@@ -76,24 +76,24 @@ impl Guard {
             && first.iter().chain(last).all(|&by| by == Vec2::ZERO)
     }
 
-    /// The times at which it is known.
+    /// Returns the times at which displacements are given.
     pub(crate) fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// The farthest that a vertex is moved by.
+    /// Returns the largest displacement, in units of the plane.
     pub(crate) fn farthest(&self) -> f64 {
         let each = self.moved.iter().flatten();
         each.map(|by| f64::from(by.length())).fold(0.0, f64::max)
     }
 
-    /// The squares of what vertices are moved by, all times and vertices together.
+    /// Returns the sum of the squared displacements over all times and vertices.
     pub(crate) fn total(&self) -> f64 {
         let each = self.moved.iter().flatten();
         each.map(|by| f64::from(by.length_squared())).sum()
     }
 
-    /// The same in the film that is run backwards.
+    /// Returns the guard of the reversed motion.
     pub(super) fn backwards(&self) -> Self {
         Self {
             times: self.times.iter().rev().map(|t| 1.0 - t).collect(),
@@ -102,7 +102,8 @@ impl Guard {
         }
     }
 
-    /// The same of a mesh of so many vertices whose faces are divided.
+    /// Returns the guard of the subdivided mesh; `vertex_count` is the number of vertices before
+    /// the subdivision. A midpoint gets the mean displacement of the ends of its edge.
     pub(super) fn subdivided(&self, fine: &Subdivision, vertex_count: usize) -> Self {
         let places = self.vertices.iter().enumerate();
         let mut places: BTreeMap<u32, usize> = places.map(|(k, &vertex)| (vertex, k)).collect();
@@ -122,7 +123,7 @@ impl Guard {
         finer
     }
 
-    /// What counts at a time; nothing where nothing is moved.
+    /// Returns the rows and weights at `t`; `None` if nothing is displaced then.
     pub(super) fn at(&self, t: f64) -> Option<GuardMix> {
         let after = self.times.partition_point(|&time| time <= t);
         if after == 0 || after == self.times.len() {
@@ -138,7 +139,8 @@ impl Guard {
             s * s * (3.0 - 2.0 * s),
             0.0,
         ];
-        // The velocity at a time is that between its neighbours; at both ends it rests.
+        // The velocity at a time is that between its neighbours. At the first and the last time it
+        // is zero.
         let mut pull = |from: usize, to: usize, by: f64| {
             if rows[to] - rows[from] == 2 {
                 let by = by * length / (self.times[rows[to]] - self.times[rows[from]]);
@@ -151,7 +153,7 @@ impl Guard {
         Some(GuardMix { rows, weights })
     }
 
-    /// Moves the vertices of a run, whose places these are.
+    /// Adds the displacements to the positions of the vertices with the indices `run`.
     pub(super) fn add(&self, mix: &GuardMix, run: Range<usize>, places: &mut [DVec2]) {
         let from = self
             .vertices

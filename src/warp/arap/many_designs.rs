@@ -1,25 +1,26 @@
-//! Rigid parts of many designs at once.
+//! As-rigid-as-possible interpolation of many designs.
 //!
-//! For each face let A_j be its map from a reference to design j, and C the mean of all:
-//! with A_j C⁻¹ = R(θ_j) S_j, the sums of θ_j and of log S_j over the designs are zero.
-//! A blend with weights w that sum to one has the local maps
+//! For each face, let A_j be the linear map from a reference to design j, and C the mean of these
+//! maps. In A_j C⁻¹ = R(θ_j) S_j, the sums of θ_j and of log S_j over all designs are zero. A blend
+//! with weights w, which sum to 1, has the local maps
 //!
-//! A(w) = R(Σ w_j θ_j) exp(Σ w_j log S_j) C,
+//! A(w) = R(Σ w_j θ_j) exp(Σ w_j log S_j) C.
 //!
-//! and, as for two designs, the energy has one matrix, with the weights
-//! W = (1/N) Σ a_j (A_jᵀ A_j)⁻¹, a_j the face's area in design j: a blend is one pass over
-//! the faces and one back-substitution. After Alexa, Cohen-Or, Levin (2000) for two; the
-//! mean is that of rotations and of logarithms of stretches, each by itself.
+//! As for two designs, the energy has one matrix for all blends, with the face weights
+//! W = (1/N) Σ a_j (A_jᵀ A_j)⁻¹, where N is the number of designs and a_j the area of the face in
+//! design j. A blend takes one pass over the faces and one back-substitution. The method extends
+//! Alexa, Cohen-Or, Levin (2000) from two designs to many; the mean takes rotations and logarithms
+//! of stretches separately.
 //!
-//! Guaranteed: each design at its own corner, to the last bit; of two designs it is the
-//! exponential homotopy with the symmetric energy, where no face folds; the order of the
-//! designs has no influence but by rounding, where no face turns by more than half a turn
-//! between two of them and `retreat` has nothing to do; between the designs no face folds.
-//! Not guaranteed: that none folds beyond them.
+//! Guaranteed: a design's own corner gives that design bit for bit; two designs give the
+//! exponential homotopy with the symmetric energy as long as no face folds; with weights of at
+//! least 0, no face folds. The order of the designs matters only by rounding, as long as no face
+//! rotates by more than π between two designs and `retreat` is not needed. Not guaranteed: that no
+//! face folds with negative weights.
 //!
-//! - `mend`: faces inside that are turned over, turned back
-//! - `retreat`: from a blend that stays folded to one that is not
-//! - `parts`: where the connected parts are as wholes; `along`: a way through the blends
+//! - `mend`: unfolds faces by moving interior vertices
+//! - `retreat`: replaces a blend that stays folded by the nearest one that is not
+//! - `parts`: positions of the connected parts as a whole; `along`: a path through the blends
 
 mod along;
 mod mend;
@@ -43,7 +44,7 @@ use mend::Mender;
 use parts::{BlendParts, blended};
 use std::sync::Arc;
 
-/// A prefactored blend of many designs. Cloning is cheap.
+/// Blend of many designs, with its matrix factored in advance. Cloning is cheap.
 ///
 /// ```
 /// use morphospace::compatible::CompatibleFamily;
@@ -69,26 +70,25 @@ struct ArapBlendData {
     family: CompatibleFamily,
     cholesky: Cholesky,
     faces: Vec<BlendFace>,
-    /// For each face and each design, faces first: θ, and log S by its entries xx, xy
-    /// and yy.
+    /// For each face, and within it each design: θ, and the entries xx, xy and yy of log S.
     ways: Vec<[f64; 4]>,
     bars: Vec<BlendBar>,
-    /// For each vertex and each design the pull of its faces there, vertices first.
+    /// For each vertex, and within it each design: the force of its faces and bars in that design.
     ends: Vec<DVec2>,
     parts: BlendParts,
     mender: Mender,
 }
 
-/// C W g of the second and third corner of a face.
+/// C W g of a face, where g are the gradients of the hat functions of its second and third corner.
 #[derive(Clone, Copy, Debug)]
 struct BlendFace(DMat2);
 
-/// A bar in no face.
+/// A bar that belongs to no face.
 #[derive(Clone, Debug)]
 struct BlendBar {
     ends: BarElement,
     stiffness: f64,
-    /// For each design the direction, in radians, and the logarithm of the length.
+    /// For each design, the direction in radians and the logarithm of the length.
     ways: Vec<[f64; 2]>,
 }
 
@@ -96,8 +96,8 @@ impl ArapBlend {
     /// Decomposes the local maps, assembles the matrix and factors it.
     ///
     /// # Errors
-    /// [`ArapError`] if angles wind around a hole, the matrix cannot be factored, or on a
-    /// cancel.
+    /// [`ArapError`] if angles wind around a hole, the matrix cannot be factored, or the job is
+    /// cancelled.
     pub fn build(family: &CompatibleFamily, progress: &dyn Progress) -> Result<Self, ArapError> {
         checkpoint(progress, "decomposing", 0.0)?;
         let count = family.count();
@@ -105,8 +105,8 @@ impl ArapBlend {
             homotopy: Homotopy::Exponential,
             ..ArapOptions::default()
         };
-        // From the first design, which is the reference, to each: their angles fit
-        // together over the faces, and parts turn the short way.
+        // The maps lead from the first design, the reference, to each design. Their angles are
+        // consistent across faces, and each part rotates the shorter way.
         let mut maps = Vec::with_capacity(count);
         for design in 0..count {
             check_cancelled(progress)?;
@@ -153,13 +153,13 @@ impl ArapBlend {
         Ok(Self(Arc::new(inner)))
     }
 
-    /// The connectivity and the designs.
+    /// Returns the connectivity and the designs.
     #[must_use]
     pub fn family(&self) -> &CompatibleFamily {
         &self.0.family
     }
 
-    /// A placer with memory of its own.
+    /// Returns a placer with its own memory.
     #[must_use]
     pub fn placer(&self) -> BlendPlacer {
         let inner = &self.0;
@@ -176,18 +176,18 @@ impl ArapBlend {
     }
 }
 
-/// A blend with the memory that it takes. Placing allocates nothing and cannot fail.
+/// Evaluates a blend in its own memory. Placing allocates nothing and cannot fail.
 pub struct BlendPlacer {
     blend: Arc<ArapBlendData>,
     places: Vec<DVec2>,
-    /// Of each vertex.
+    /// Force on each vertex.
     pulls: Vec<DVec2>,
     /// Right-hand sides, then deviations: all x, all y, in elimination order.
     deviation: Vec<f64>,
     workspace: CholeskyWorkspace,
-    /// Of each part.
+    /// Shift of each connected part.
     shifts: Vec<DVec2>,
-    /// Weights that are tried.
+    /// Weights of the blend that is being tried.
     towards: Vec<f64>,
 }
 
@@ -200,11 +200,11 @@ impl std::fmt::Debug for BlendPlacer {
 }
 
 impl BlendPlacer {
-    /// Where each vertex is in the blend with these weights, one for each design, that
-    /// sum to one; outside [0, 1] it extrapolates.
+    /// Returns the position of each vertex in the blend with the given weights, one per design,
+    /// which sum to 1. Weights outside [0, 1] extrapolate.
     ///
     /// # Panics
-    /// If there are not as many weights as designs.
+    /// If the number of weights differs from the number of designs.
     pub fn place(&mut self, weights: &[f64]) -> &[DVec2] {
         let count = self.blend.family.count();
         assert_eq!(weights.len(), count, "a weight for each design");
@@ -215,7 +215,7 @@ impl BlendPlacer {
         &self.places
     }
 
-    /// Places a blend as near as faces can be kept from folding, and says whether none is.
+    /// Places a blend and unfolds its faces as far as possible. Returns whether no face is folded.
     fn solve(&mut self, weights: &[f64]) -> bool {
         let blend = &*self.blend;
         let count = weights.len();
@@ -238,13 +238,13 @@ impl BlendPlacer {
         for (v, place) in self.places.iter_mut().enumerate() {
             let designs = blend.family.embeddings().iter().zip(weights);
             let straight: DVec2 = designs.map(|(places, &w)| places[v] * w).sum();
-            // What is exactly 0 at a design is added last.
+            // The bracket is exactly 0 in a design, so that the sum is exact there.
             *place = straight + (deviation(v) + self.shifts[blend.parts.of_vertex[v] as usize]);
         }
         blend.mender.mend(blend.family.faces(), &mut self.places)
     }
 
-    /// Where the vertices were placed last.
+    /// Returns the vertex positions of the last blend.
     #[must_use]
     pub fn places(&self) -> &[DVec2] {
         &self.places
@@ -252,7 +252,7 @@ impl BlendPlacer {
 }
 
 impl ArapBlendData {
-    /// Σ A(w) W g of each vertex.
+    /// Adds Σ A(w) W g, the forces of faces and bars, to each vertex.
     fn add_pulls(&self, weights: &[f64], pulls: &mut [DVec2]) {
         let ways = self.ways.chunks_exact(weights.len());
         for ((face, ways), BlendFace(carried)) in
@@ -281,8 +281,8 @@ impl ArapBlendData {
         }
     }
 
-    /// The pulls at each design, by the very operations of a blend: their difference to
-    /// one there is exactly zero.
+    /// Returns the forces in each design. They are computed by the same operations as in a blend,
+    /// so that their difference there is exactly zero.
     fn pulls_of_designs(&self) -> Vec<DVec2> {
         let (count, vertices) = (self.family.count(), self.parts.of_vertex.len());
         let mut ends = vec![DVec2::ZERO; count * vertices];
@@ -299,14 +299,14 @@ impl ArapBlendData {
     }
 }
 
-/// exp of a symmetric matrix: e^m (cosh r I + sinh r / r D) with its mean m and the rest
-/// D of size r.
+/// Returns the exponential of a symmetric matrix: e^m (cosh r I + (sinh r / r) D), with the mean m
+/// of its eigenvalues, its traceless part D, and the eigenvalue r ≥ 0 of D.
 fn exponential(xx: f64, xy: f64, yy: f64) -> DMat2 {
     let (mean, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
     let radius = half.hypot(xy);
     let (grown, shrunk) = (radius.exp(), (-radius).exp());
     let cosh = 0.5 * (grown + shrunk);
-    // Below this cosh and sinh r / r are one to the last digit.
+    // Below this, cosh r and sinh r / r equal 1 in floating point.
     let sinc = if radius < 1e-8 {
         1.0
     } else {
@@ -316,11 +316,11 @@ fn exponential(xx: f64, xy: f64, yy: f64) -> DMat2 {
     DMat2::from_cols(DVec2::new(cosh + d, o), DVec2::new(o, cosh - d)) * mean.exp()
 }
 
-/// The mean C of some maps, and for each the angle and log stretch of A_j C⁻¹.
+/// Returns the mean C of the maps and, for each map, the angle and the log stretch of A_j C⁻¹.
 fn mean_of(maps: &[PolarDecomposition]) -> (DMat2, Vec<[f64; 4]>) {
-    /// What is left of the mean is below rounding after some ten rounds; the bound is
-    /// for maps that are none.
+    /// Maximum number of iterations (resource limit: valid maps converge in about ten).
     const ROUNDS: usize = 100;
+    /// Largest mean of angles and log stretches at convergence (tolerance: rounding).
     const LEFT: f64 = 1e-15;
     let count = maps.len() as f64;
     let each: Vec<DMat2> = maps.iter().map(PolarDecomposition::matrix).collect();
@@ -348,7 +348,7 @@ fn mean_of(maps: &[PolarDecomposition]) -> (DMat2, Vec<[f64; 4]>) {
     (mean, own)
 }
 
-/// W: the mean over the designs of the face's area times the inverse of A_jᵀ A_j.
+/// Returns the face weight W: the mean over the designs of the face's area times (A_jᵀ A_j)⁻¹.
 fn weight(family: &CompatibleFamily, face: usize, maps: &[PolarDecomposition]) -> DMat2 {
     let corners = family.faces()[face];
     let mut sum = DMat2::ZERO;
@@ -372,13 +372,13 @@ impl BlendBar {
         Self {
             ends,
             ways: ways.collect(),
-            // By length²/2 divided by the length's square, whatever the designs.
+            // length²/2, divided by the squared length: the same for all designs.
             stiffness: 0.5,
         }
     }
 }
 
-/// The matrix of the energy on its way.
+/// The matrix of the energy while it is assembled.
 struct Assembly {
     matrix: SymmetricMatrix,
     diagonal: Vec<f64>,
@@ -413,8 +413,8 @@ impl Assembly {
         self.matrix.add(a, b, -k);
     }
 
-    /// Made regular by grounding one vertex of each connected part, which moves nothing:
-    /// pulls sum up to zero over a part.
+    /// Makes the matrix regular by grounding one vertex of each connected part. This changes no
+    /// result, because the forces on a part sum to zero.
     fn grounded(mut self, family: &CompatibleFamily) -> SymmetricMatrix {
         let components = family.pair(0, 0).components();
         let mut grounded = vec![false; self.diagonal.len()];

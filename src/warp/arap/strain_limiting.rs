@@ -1,36 +1,35 @@
-//! Faces that are sheared more than at the worse end are put back, frame by frame.
+//! Corrects, in each frame, the faces that exceed the distortion bound of the worse end.
 //!
-//! Many are put back all at once, each as its own map says. A needle gives way by next to
-//! nothing of that, since its neighbours do not; so few are put back one after the other,
-//! each by what it does not give way. Either is done farther than it should be, since what
-//! is put back next pulls it forth again.
+//! If many faces exceed the bound, all are corrected at once, each by the change that its own map
+//! needs. A needle-shaped face hardly yields to that, because its neighbours resist. If only a few
+//! faces exceed the bound, they are therefore corrected one after the other, and each change is
+//! enlarged by the resistance of its face. All corrections are overrelaxed, because each correction
+//! partly undoes the previous ones.
 //!
-//! Guaranteed: what is within the bound is not touched. Not guaranteed: that all is within
-//! it at the end.
+//! Guaranteed: frames in which all faces satisfy the bound are unchanged. Not guaranteed: that all
+//! faces satisfy it in the end.
 
 use super::bounded::{Bounded, Memory};
 use super::evaluation_times::EvaluationTimes;
 use crate::geometry::{DMat2, DVec2};
 use crate::numerics::{Cholesky, CholeskyWorkspace};
 
-/// How often any is put back in a frame, at most: most films need none.
+/// Maximum number of corrections in a frame (resource limit; a round that has begun is completed).
 const MOST: usize = 128;
 
-/// How many times as far as it should: any less than twice gets there (Young 1954,
-/// successive overrelaxation). By as far as it should, a face of an icon was sheared more
-/// than twice what it may be after 128 times.
+/// Overrelaxation factor; the iteration converges for factors between 0 and 2 (Young 1954,
+/// successive overrelaxation) (heuristic).
 const FARTHER: f64 = 1.8;
 
-/// So few are put back one after the other: all at once, a face of an icon was sheared
-/// four times what it may be after 128 times.
+/// Maximum number of faces that are corrected one after the other (heuristic).
 const FEW: usize = 8;
 
-/// Solves for what deviates by forces, with the memory of a frame to work in.
+/// Solves for the deviations caused by forces, in the memory of a frame.
 pub(super) struct DeviationSolver<'a> {
     cholesky: &'a Cholesky,
-    /// Of each vertex.
+    /// Force on each vertex.
     forces: &'a mut [DVec2],
-    /// All x, all y, in elimination order.
+    /// Solution: all x, then all y, in elimination order.
     solved: &'a mut [f64],
     workspace: &'a mut CholeskyWorkspace,
 }
@@ -50,7 +49,7 @@ impl<'a> DeviationSolver<'a> {
         }
     }
 
-    /// What deviates where so is pulled.
+    /// Returns the deviations caused by the forces that `pull` adds.
     fn solve(&mut self, pull: impl FnOnce(&mut [DVec2])) -> &[f64] {
         self.forces.fill(DVec2::ZERO);
         pull(self.forces);
@@ -65,8 +64,8 @@ impl<'a> DeviationSolver<'a> {
     }
 }
 
-/// Puts faces back that are sheared more than at the worse end, of what deviates so from
-/// the straight line: all x, all y, in elimination order.
+/// Corrects the faces that exceed the distortion bound. `deviation` contains the deviations of the
+/// vertices from their straight paths: all x, then all y, in elimination order.
 pub(super) fn put_back(
     (bounded, times): (&Bounded, EvaluationTimes),
     deviation: &mut [f64],

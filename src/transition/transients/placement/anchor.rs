@@ -1,10 +1,11 @@
-//! Where a place goes that nothing lies at, by what lies around it.
+//! Motion of a point that belongs to no outline, derived from the outlines around it.
 
 use crate::geometry::{DVec2, SimilarityFit, signed_area};
 use crate::transition::transients::layered_outline::LayeredOutline;
 
-/// Where the innermost of some outlines that go around a place takes it, from as
-/// they are now to as they are then, and what that outline encloses.
+/// Moves the point `here` with the innermost outline that encloses it, from its position in `now`
+/// to its position in `then`. Returns the area of that outline and the new position; `None` if no
+/// outline encloses the point.
 pub(super) fn carried_within(
     here: DVec2,
     now: &[LayeredOutline],
@@ -16,15 +17,17 @@ pub(super) fn carried_within(
         .filter(|(now, _)| now.winding(here) != 0)
         .map(|(now, then)| (signed_area(&now.points).abs(), now, then))
         .min_by(|a, b| a.0.total_cmp(&b.0))?;
-    // A ring of one point has no turn.
+    // The fit fails if all points of the outline coincide.
     let place = SimilarityFit::of(&now.points, &then.points).map_or(here, |fit| fit.apply(here));
     Some((size, place))
 }
 
-/// Where outlines take a place that lies beside them.
+/// Moves the point `here`, which no outline encloses, with the outlines around it, from `now` to
+/// `then`.
 pub(super) fn carried_among(here: DVec2, now: &[LayeredOutline], then: &[LayeredOutline]) -> DVec2 {
     let both = now.iter().zip(then);
-    // Shepard 1968, near neighbours counting most.
+    // Interpolation with inverse distance weights (Shepard 1968), to the fourth power, so that near
+    // points dominate.
     let (mut sum, mut total) = (DVec2::ZERO, 0.0);
     for (now, then) in both {
         for (p, q) in now.points.iter().zip(&then.points) {

@@ -1,8 +1,8 @@
-//! What is there on the way, and where in it a part can grow.
+//! Searches the position and time window of a part that exists in only one design, among everything
+//! that is drawn during the motion.
 //!
-//! Of the places that are as free the one is taken that is nearest to a
-//! part's own place in the whole, and of the times the one that suits the
-//! [`TransientSchedule`] best.
+//! Among positions that are equally free, the nearest to the part's own position in the whole
+//! design is chosen; among windows, the one that suits the schedule best ([`TransientSchedule`]).
 
 use super::anchor::{carried_among, carried_within};
 use super::seed_shape::TransientPart;
@@ -16,9 +16,8 @@ use crate::transition::transients::schedule::{TransientSchedule, eighths};
 use crate::warp::{Arap, Placer, TimeWindow, Warp};
 use rayon::prelude::*;
 
-/// A growing part keeps this share of its size free around itself, less the
-/// nearer it is to the size that was drawn.
-/// Enough that it is seen to keep clear; no pair fixed it.
+/// Clearance around a growing part, as a fraction of its size; it decreases to 0 at full size
+/// (heuristic).
 const MARGIN: f64 = 0.05;
 
 /// Positions searched along each side of the bounding box (heuristic).
@@ -27,36 +26,36 @@ const PLACES: u32 = 10;
 /// which finds a free position, took minutes).
 const PLACES_OF_ALL: f64 = 2400.0;
 
-/// Births that are looked at beside each other. More would be looked at without
-/// knowing how good the best of them is.
+/// Number of candidates that are examined in parallel (heuristic: more would be examined before the
+/// best cost so far is known).
 const ABREAST: usize = 8;
 
-/// What it costs to meet another part all the time (5 for an even step), the distance from
-/// its own place, in diameters, and to come at once, against the unrest of the film. Were
-/// distance four times as dear, the worst tenth of the area of 60 pairs of icons would be 0.24
-/// instead of 0.20.
+/// Cost for each unit of t during which a part collides: 5 for a step of 1/64 (heuristic).
 const MEETING: f64 = 320.0;
+/// Cost for each diameter of the design between a part's position and its own position (heuristic).
 const DISTANCE: f64 = 0.25;
+/// Additional cost of appearing or disappearing at once (heuristic).
 const AT_ONCE: f64 = 0.5;
 
-/// What it costs at most in the plan that a time is not free.
+/// Maximum collision cost of a window in the schedule (heuristic).
 const DEAR: f64 = 1.0;
 
-/// Where, when and how a part is born or dies.
+/// Position, time window and kind of growth of a part that exists in only one design.
 #[derive(Clone, Copy)]
 pub(super) struct TransientPlacement {
-    /// Where its centroid is where it is a speck.
+    /// Position of its centroid in the design in which it is a seed shape.
     pub(super) place: DVec2,
     pub(super) life: TimeWindow,
-    /// In thickness instead of in size.
+    /// Whether it grows in thickness within its outline, and not from a seed shape.
     pub(super) swells: bool,
 }
 
 impl TransientPlacement {
-    /// The part at `t`, larger by a share of its size the smaller it is.
+    /// Returns the outlines of the part at `t`. The smaller a growing part is, the more it is
+    /// enlarged, by at most the fraction `margin` of its size.
     fn at(&self, speck: &TransientPart, film: &Arap, t: f64, margin: f64) -> Vec<LayeredOutline> {
         let share = self.life.fraction_done(t);
-        // A speck is not drawn.
+        // Nothing is drawn while the part has no size.
         if self.life.is_absent(t) {
             return Vec::new();
         }
@@ -70,37 +69,39 @@ impl TransientPlacement {
 }
 
 impl TransientPlacement {
-    /// Where at `t` a place is that lies in the part where it is drawn.
+    /// Returns the position at `t` of a point that lies at `here` in the design that has the part,
+    /// and that moves with the part.
     fn takes(&self, speck: &TransientPart, film: &Arap, here: DVec2, t: f64) -> DVec2 {
         let share = self.life.fraction_done(t);
         let centre = film.carried_position(speck.ends_at(self.place), share, t);
         let from_centre = here - speck.ends[speck.side];
         match self.swells {
-            // It goes with its middle.
+            // A swelling part moves as a whole and keeps its size.
             true => centre + speck.off_middle_at(share) + from_centre,
             false => centre + from_centre * speck.size(share),
         }
     }
 }
 
-/// What has got its place.
+/// A part whose placement is chosen.
 struct SceneTransient<'a> {
     speck: &'a TransientPart,
     birth: TransientPlacement,
-    /// At each step.
+    /// Its outlines at each sample time.
     outlines: Vec<Vec<LayeredOutline>>,
 }
 
-/// What is there at each step, both ends included.
+/// Everything that is drawn at each sample time, t = 0 and t = 1 included.
 pub(super) struct TransientScene<'a> {
     steps: &'a SampleTimes,
-    /// Of what both designs have.
+    /// Outlines of the matched parts at each sample time.
     outlines: Vec<Vec<LayeredOutline>>,
-    /// Of holes that come and go: as many as there are at each step.
+    /// Holes that exist in only one design and are visible, at each sample time.
     holes: Vec<Vec<LayeredOutline>>,
-    /// What has got its place.
+    /// Parts that are already placed.
     born: Vec<SceneTransient<'a>>,
-    /// What has none yet, as it was drawn, the next one last.
+    /// Parts that are not placed yet: the design that has each, and its outlines there. The next
+    /// one to be placed is the last.
     unplaced: Vec<(Side, Vec<LayeredOutline>)>,
     bounds: Bounds,
     /// Candidate positions.
@@ -108,7 +109,8 @@ pub(super) struct TransientScene<'a> {
 }
 
 impl<'a> TransientScene<'a> {
-    /// Of the pieces that both designs have, for parts that get their places in this order.
+    /// Creates the scene of the matched parts and of the holes. `specks` are the parts to be
+    /// placed, in this order.
     pub(super) fn of(
         film: &Arap,
         (holes, specks): (&[PieceHole], &[TransientPart]),
@@ -139,8 +141,8 @@ impl<'a> TransientScene<'a> {
         }
     }
 
-    /// Gives the next one, which has this number in the timetable, its best birth; its place
-    /// is searched for only where that is asked for.
+    /// Places the next part, which has the index `k` in the schedule. Other positions than its own,
+    /// and swelling, are tried only if `is_searched`.
     pub(super) fn place(
         &mut self,
         speck: &'a TransientPart,
@@ -163,11 +165,13 @@ impl<'a> TransientScene<'a> {
         });
     }
 
-    /// Where, when and how all were born that have got their places.
+    /// Returns the parts that are placed, with their placements.
     pub(super) fn births(&self) -> impl Iterator<Item = (&TransientPart, &TransientPlacement)> {
         self.born.iter().map(|born| (born.speck, &born.birth))
     }
 
+    /// Returns the cheapest placement of a part: the cost of its window in the schedule plus the
+    /// costs of distance and collisions.
     fn best(
         &self,
         speck: &TransientPart,
@@ -189,7 +193,7 @@ impl<'a> TransientScene<'a> {
             false => 0.0,
         };
         let ranked = timetable.ranked(k);
-        // What comes at once is for want of better.
+        // Appearing at once is the last resort.
         let most = ranked.last().map_or(0.0, |(cost, _)| *cost);
         let at_once = (most + AT_ONCE, speck.at_once());
         for (unrest, life) in ranked.into_iter().chain([at_once]) {
@@ -205,12 +209,12 @@ impl<'a> TransientScene<'a> {
         best.1
     }
 
-    /// What each of the times costs a part that are chosen from: how far from its own place it
-    /// is to be, and for how long it meets something even so.
+    /// Returns the collision cost of each candidate window of a part: its distance from its own
+    /// position, and the time during which it collides even so.
     pub(super) fn prices(&self, speck: &TransientPart, film: &Arap) -> Vec<f64> {
         let price = |life: TimeWindow| {
             let mut births = self.births_in(speck, film, life, true);
-            // What that does to the film depends on the others.
+            // Whether swelling pays off depends on the other parts, so it is not considered here.
             births.retain(|(_, birth)| !birth.swells);
             let cheapest = self.cheapest((speck, births), film, |_| 0.0, DEAR);
             cheapest.map_or(DEAR, |(cost, _)| cost)
@@ -219,8 +223,9 @@ impl<'a> TransientScene<'a> {
         lives.into_par_iter().map(price).collect()
     }
 
-    /// The one of some births, of which it is known how far each is from the part's own place,
-    /// that costs least, if that is less than `most`. Each costs something more by itself.
+    /// Returns the cheapest placement and its cost; `None` if all cost at least `most`. Each
+    /// placement comes with its distance from the part's own position; `more` returns a further
+    /// cost of a placement.
     fn cheapest(
         &self,
         (speck, mut births): (&TransientPart, Vec<(f64, TransientPlacement)>),
@@ -229,21 +234,21 @@ impl<'a> TransientScene<'a> {
         most: f64,
     ) -> Option<(f64, TransientPlacement)> {
         let mut best = (most, None);
-        // The nearest first: they cost least, and what costs more than they do need
-        // not be looked at to its end. What swells last: it takes longest to look at.
+        // The nearest come first: they cost least, and costlier ones are then abandoned early.
+        // Swelling comes last, because it takes longest to examine.
         births.sort_by(|(a, p), (b, q)| p.swells.cmp(&q.swells).then(a.total_cmp(b)));
-        // Most need no other place than their own.
+        // Most parts can stay at their own position, so it is examined alone.
         let (own, others) = births.split_at(1);
         for some in std::iter::once(own).chain(others.chunks(ABREAST)) {
             let cost = |(distance, birth): &(f64, TransientPlacement)| {
                 let far = DISTANCE * distance / self.bounds.diameter();
-                // How a part swells takes long to find out.
+                // The further cost of swelling takes long to compute.
                 let known = (far < best.0).then(|| far + more(birth))?;
                 let most = (best.0 - known) / MEETING;
                 (known < best.0).then(|| known + MEETING * self.meetings(speck, birth, film, most))
             };
             let costs: Vec<Option<f64>> = match some {
-                // To share that out would take longer.
+                // Sharing out one candidate would take longer.
                 [one] => vec![cost(one)],
                 _ => some.par_iter().map(cost).collect(),
             };
@@ -257,9 +262,9 @@ impl<'a> TransientScene<'a> {
         birth.map(|birth| (cost, birth))
     }
 
-    /// The births of a time, with how far each is from the part's own place; where they are
-    /// searched also those at other places and along the part's own outline, and those that
-    /// swell.
+    /// Returns the candidate placements for a window, each with its distance from the part's own
+    /// position, which comes first. Other positions, also those along the part's own outline, and
+    /// swelling are included only if `is_searched`.
     fn births_in(
         &self,
         speck: &TransientPart,
@@ -271,8 +276,8 @@ impl<'a> TransientScene<'a> {
         let nearby = speck.own_places(own).into_iter();
         let others = nearby.chain(self.grid.iter().copied());
         let others = others.filter(|_| is_searched);
-        // What begins at one place grows out of it as one picture would: nothing of it
-        // meets, however small it is.
+        // The part is scaled about the candidate point. Parts that grow from the same point then
+        // behave like one scaled picture and do not collide while they are small.
         let end = film.uncarried_ends(speck.ends[speck.side], [0.0, 1.0][speck.side]);
         let others = others.map(|place| place.lerp(end[speck.side.other()], speck.least));
         let growing = std::iter::once(own).chain(others);
@@ -284,7 +289,8 @@ impl<'a> TransientScene<'a> {
             };
             (place.distance(own), birth)
         };
-        // In the place that it will have, or along with what is around it.
+        // A swelling part either moves with its surroundings, or starts at the place in the frame
+        // where it is in its design.
         let drawn = film.uncarried_ends(speck.ends[speck.side], begins(speck, life));
         let swells = |place: DVec2| {
             let birth = TransientPlacement {
@@ -299,7 +305,8 @@ impl<'a> TransientScene<'a> {
         growing.map(grows).chain(swelling).collect()
     }
 
-    /// The share of the film in which it meets something, counted on to `most`.
+    /// Returns the length of t during which the part collides. Counting stops once it exceeds
+    /// `most`.
     fn meetings(
         &self,
         speck: &TransientPart,
@@ -308,11 +315,13 @@ impl<'a> TransientScene<'a> {
         most: f64,
     ) -> f64 {
         let mut long = 0.0;
-        // Every other first: most that meet anything do so for long.
+        // Every other sample time first: most collisions last long, so the count soon exceeds
+        // `most`.
         let last = self.steps.last();
         let steps = (0..=last).step_by(2).chain((1..=last).step_by(2));
         for step in steps {
-            // At its own end it is as it was drawn; near that it is large and meets most.
+            // Starts near the part's own design, where it is largest and collides most; in that
+            // design itself it is as drawn.
             if long > most || step == 0 {
                 continue;
             }
@@ -327,9 +336,9 @@ impl<'a> TransientScene<'a> {
         long
     }
 
-    /// What is there at a step, but for holes, for what one design has alone. What the
-    /// other has alone and has no place yet is there at its own end, whatever place it
-    /// gets: of some 80 parts of an icon one grew out of another that had just begun to go.
+    /// Returns the outlines, except holes, that a part of design `side` must avoid at a sample
+    /// time. Parts of the other design that are not placed yet count only near that other design,
+    /// where their positions are known.
     fn there(&self, step: usize, side: Side) -> impl Iterator<Item = &LayeredOutline> {
         let t = self.steps.times()[step];
         let is_near = [1.0 - t, t][side] <= FINE_STEP;
@@ -346,7 +355,7 @@ impl<'a> TransientScene<'a> {
         !rings.iter().any(crosses)
     }
 
-    /// Whether it neither lies in another part nor over one.
+    /// Returns whether the part lies neither inside another part or a hole nor around another part.
     fn is_apart(&self, step: usize, side: Side, rings: &[LayeredOutline]) -> bool {
         let Some(outer) = rings.first() else {
             return true;
@@ -363,12 +372,12 @@ impl<'a> TransientScene<'a> {
         !is_within && !others.any(|other| around(other.points[0]) != 0)
     }
 
-    /// Its own place when it is a speck: where what it lies in is then, or
-    /// what lies around it.
+    /// Returns the part's own position as a seed shape. It moves there with the innermost outline
+    /// around it or, if there is none, with the outlines nearby.
     fn carried(&self, speck: &TransientPart, life: TimeWindow, film: &Arap) -> DVec2 {
         let (side, here) = (speck.side, speck.ends[speck.side]);
         let begins = begins(speck, life);
-        // Of what both designs have, which is there in the same order at each step.
+        // Only matched parts: they have the same order at each sample time.
         let then = &self.outlines[self.steps.before(begins)];
         let now = &self.outlines[[0, self.steps.last()][side]];
         let born = self.born.iter().filter(|born| born.speck.side == side);
@@ -383,12 +392,13 @@ impl<'a> TransientScene<'a> {
     }
 }
 
-/// When a part is a speck that grows, or was one.
+/// Returns the time at which a part starts to grow from its seed shape, or ends shrinking to it.
 fn begins(speck: &TransientPart, life: TimeWindow) -> f64 {
     [life.to, life.from][speck.side]
 }
 
-/// Grid of candidate positions in `bounds` for each of `parts` parts.
+/// Returns a grid of candidate positions in `bounds`. The more `parts` there are, the coarser it
+/// is.
 fn grid(bounds: Bounds, parts: usize) -> Vec<DVec2> {
     let most = (PLACES_OF_ALL / parts.max(1) as f64).sqrt();
     let places = PLACES.min(most as u32);

@@ -1,4 +1,4 @@
-//! A part of one design alone: a speck in the other.
+//! A part that exists in only one design, as a growing seed shape and as a swelling shape.
 
 use crate::content::mean_point;
 use crate::correspondence::{PieceMatch, RegionMatch};
@@ -11,27 +11,29 @@ use crate::transition::transients::schedule::life;
 use crate::warp::TimeWindow;
 use std::sync::OnceLock;
 
-/// Places along its own outline that are searched.
+/// Maximum number of candidate positions along the part's own outline (resource limit).
 const OWN_PLACES: usize = 12;
 
-/// A part of one design alone.
+/// A part that exists in only one design.
 pub(super) struct TransientPart {
+    /// Index of the piece.
     pub(super) piece: usize,
-    /// The design that has it.
+    /// Design that has the part.
     pub(super) side: Side,
-    /// What is on another level is not in its way.
+    /// Index of its layer; parts on other layers are no obstacles.
     level: usize,
+    /// Area in the design that has the part.
     area: f64,
-    /// Its centroids in source and target.
+    /// Centroids in source and target.
     pub(super) ends: [DVec2; 2],
-    /// Its rings about its centroid, as large as they are.
+    /// Its rings in full size, relative to its centroid.
     pub(super) rings: Vec<Vec<DVec2>>,
-    /// Its size across where it is a speck, as a share of its own.
+    /// Diameter of its seed shape, as a fraction of its own.
     pub(super) least: f64,
     swelling: SwellingProfile,
 }
 
-/// A part as it swells, from nothing to all of it, once somebody asks.
+/// Outlines of a swelling part at each step of thickness, computed on first use.
 #[derive(Default)]
 struct SwellingProfile {
     depth: OnceLock<f64>,
@@ -49,7 +51,7 @@ impl SwellingProfile {
 }
 
 impl TransientPart {
-    /// All of a match, the largest first.
+    /// Returns all parts of a match that exist in only one design, the largest first.
     pub(super) fn all(matched: &RegionMatch, levels: &PieceLayers) -> Vec<Self> {
         let pieces = matched.pieces.iter().enumerate();
         let alone = |(k, piece): (usize, &PieceMatch)| {
@@ -60,7 +62,8 @@ impl TransientPart {
         let key = |s: &Self| [s.ends[s.side].x, s.ends[s.side].y];
         all.sort_by(|a, b| {
             let order = b.area.total_cmp(&a.area);
-            // The order of the pieces is another in the film run backwards.
+            // Ties are broken by position, because swapping the designs changes the order of the
+            // pieces.
             let [p, q] = [key(a), key(b)];
             order
                 .then(p[0].total_cmp(&q[0]))
@@ -92,7 +95,8 @@ impl TransientPart {
         }
     }
 
-    /// How large it is where so much of its change is done.
+    /// Returns the size, relative to full size, when the fraction `share` of the change is
+    /// completed.
     pub(super) fn size(&self, share: f64) -> f64 {
         let grown = match self.side {
             Side::Source => 1.0 - share,
@@ -101,6 +105,7 @@ impl TransientPart {
         self.least * (1.0 - grown) + grown
     }
 
+    /// Returns the centroids in source and target if the seed shape is at `place`.
     pub(super) fn ends_at(&self, place: DVec2) -> [DVec2; 2] {
         match self.side {
             Side::Source => [self.ends[0], place],
@@ -108,14 +113,15 @@ impl TransientPart {
         }
     }
 
-    /// Places along its own outline, were it at `place`: from a tip a crescent
-    /// grows around what lies in it.
+    /// Returns positions along the part's own outline if the part were at `place`. A crescent, for
+    /// instance, can grow from its tip around something that lies within it.
     pub(super) fn own_places(&self, place: DVec2) -> Vec<DVec2> {
         let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
         let step = outer.len().div_ceil(OWN_PLACES).max(1);
         outer.iter().step_by(step).map(|&p| place + p).collect()
     }
 
+    /// Returns the outlines at a centroid and a size relative to full size.
     pub(super) fn at(&self, centre: DVec2, size: f64) -> Vec<LayeredOutline> {
         let placed = |ring: &Vec<DVec2>| ring.iter().map(|&p| centre + p * size).collect();
         let rings = self.rings.iter().map(placed);
@@ -124,8 +130,8 @@ impl TransientPart {
             .collect()
     }
 
-    /// What the innermost of its rings encloses that goes around a place where it is
-    /// drawn; none where none does.
+    /// Returns the area enclosed by the smallest of its rings around the point `here` of its
+    /// design; `None` if no ring encloses that point.
     pub(super) fn size_around(&self, here: DVec2) -> Option<f64> {
         let around = self.rings.iter().filter(|ring| {
             let from_centre = here - self.ends[self.side];
@@ -136,23 +142,23 @@ impl TransientPart {
             .min_by(f64::total_cmp)
     }
 
-    /// From where its centroid would be, were it a speck that grows, to where it
-    /// is while it swells.
+    /// Returns the vector from the centroid of a growing part to the centroid of a swelling part,
+    /// at the fraction `share` of the change.
     pub(super) fn off_middle_at(&self, share: f64) -> DVec2 {
         let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
         mean_point(outer) * (self.size(share) - 1.0)
     }
 
-    /// What is to be added to a place at which it swells for that to be the
-    /// place of a speck which grows: it keeps its middle, and not its centroid.
+    /// Returns the vector from the position of a swelling part to that of the seed shape that gives
+    /// the same motion. A swelling part is placed by the mean of its outer points, a seed shape by
+    /// its centroid.
     pub(super) fn off_middle(&self) -> DVec2 {
         let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
         mean_point(outer) * (1.0 - self.least)
     }
 
-    /// Where so much of its change is done, and its centroid would be at
-    /// `centre` were it a speck that grows: swelling, somewhat thicker than it
-    /// is.
+    /// Returns the outlines of the swelling part at the fraction `share` of the change. `centre` is
+    /// the centroid of the growing part at that time. The thickness is rounded up to the next step.
     pub(super) fn swollen(&self, centre: DVec2, share: f64) -> Vec<LayeredOutline> {
         let level = (self.size(share) * SIZE_STEPS as f64).ceil();
         let level = level.clamp(0.0, SIZE_STEPS as f64);
@@ -166,22 +172,23 @@ impl TransientPart {
             .collect()
     }
 
-    /// What it is while it swells; `diameter` is that of the whole.
+    /// Returns the growth profile of the swelling part; `diameter` is that of the whole design.
     pub(super) fn swelling(&self, diameter: f64) -> GrowthProfile {
         GrowthProfile::of_steps(|size| self.swelling.level(size, &self.rings), diameter)
     }
 
-    /// What would meet something in all times comes or goes at once.
+    /// Returns the short window of a part that appears or disappears at once, because it collides
+    /// in all longer ones.
     pub(super) fn at_once(&self) -> TimeWindow {
         life(self.side, FINE_STEP)
     }
 }
 
-/// The centroid of what some rings enclose together.
+/// Returns the centroid of the region that the rings enclose.
 fn centroid<'a>(rings: impl Iterator<Item = &'a Vec<DVec2>>) -> DVec2 {
     let (mut sum, mut total, mut base) = (DVec2::ZERO, 0.0, None);
     for ring in rings {
-        // About a point of its own: far from the origin sums lose their digits.
+        // Relative to a point of the ring, because far from the origin the sums would lose digits.
         let base = *base.get_or_insert(ring[0]);
         for (a, b) in ring_edges(ring) {
             let (a, b) = (a - base, b - base);

@@ -1,7 +1,7 @@
-//! The times in which a film is restless least.
+//! Optimises the time windows of parts and holes that exist in only one design.
 //!
-//! From several starts one after the other is changed as long as that helps, and then two of
-//! the largest at a time; those of a word are put in the order in which it is read.
+//! Coordinate descent from three starting schedules, then joint optimisation of pairs of the
+//! largest parts. Letters of a word are finally sorted into reading order.
 
 use super::{GRAIN, ORDERLY, TransientSchedule, eighths, life};
 use crate::geometry::{Bounds, DVec2, Side};
@@ -9,27 +9,29 @@ use crate::warp::TimeWindow;
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::ops::Range;
 
-/// How often all are gone through.
+/// Maximum number of coordinate-descent sweeps, and of rounds of pairwise optimisation (resource
+/// limit).
 const ROUNDS: u32 = 4;
 
-/// How many are put in order at most.
+/// Maximum number of passes that sort windows into reading order (resource limit).
 const MOST_READ: usize = 100;
 
-/// Of how many all pairs are looked at. With none the worst tenth of the area of 60 pairs of
-/// icons is 0.22 instead of 0.20; with four it is the same, but two of 60 other pairs run by
-/// 0.05 and 0.09 more.
+/// Number of largest parts whose windows are also optimised in pairs (heuristic).
 const IN_TWOS: usize = 6;
 
-/// How many are planned at most, and for how many of them it is found out what is in their way:
-/// were it for none, the worst tenth of the area of 60 pairs of icons would be 0.25 instead of
-/// 0.20. Of 40,000 holes nobody sees when each comes.
+/// Maximum number of windows that are optimised; all others stay as they are (resource limit).
 const PLANNED: usize = 1000;
+/// Collision costs are computed for this many parts (resource limit).
 const PRICED: usize = 100;
 
 impl TransientSchedule {
-    /// Chooses the times in which a film is restless least, but for the first ones, which have
-    /// theirs, and for those after the most that are planned. Each time costs what `prices`
-    /// says, if anything, for what is in the way in it.
+    /// Minimises the cost of the schedule over the windows from index `fixed` on.
+    ///
+    /// `prices` returns the collision cost of each candidate window of a part, or an empty list if
+    /// unknown.
+    ///
+    /// # Errors
+    /// If the work is cancelled.
     pub(in crate::transition) fn plan(
         &mut self,
         fixed: usize,
@@ -51,9 +53,8 @@ impl TransientSchedule {
         Ok(())
     }
 
-    /// The best that is found from several starts: all of them all the time, one after
-    /// the other, all at their own ends. From the first alone the worst tenth of the
-    /// turning of 60 pairs of icons is 0.17 instead of 0.13.
+    /// Returns the best of the schedules reached from three starts: all windows [0, 1]; windows
+    /// that grow with the rank; all windows a quarter long, at the part's own design.
     fn settled(&self, free: &Range<usize>) -> Self {
         let mut best = self.started(free, |_| 1.0).improved(free);
         let others: [&dyn Fn(f64) -> f64; 2] = [&|share| share, &|_| 0.25];
@@ -72,8 +73,8 @@ impl TransientSchedule {
         best
     }
 
-    /// In which each takes so much of the film by its share in the order of those of its
-    /// design.
+    /// Returns a starting schedule. `long` returns the length of a window from the part's rank
+    /// within its design, as a fraction in (0, 1].
     fn started(&self, free: &Range<usize>, long: impl Fn(f64) -> f64) -> Self {
         let mut all = self.clone();
         for side in Side::BOTH {
@@ -87,6 +88,7 @@ impl TransientSchedule {
         all
     }
 
+    /// Optimises one window after the other until nothing improves.
     pub(super) fn improved(mut self, free: &Range<usize>) -> Self {
         for _ in 0..ROUNDS {
             let mut is_better = false;
@@ -102,15 +104,15 @@ impl TransientSchedule {
         self
     }
 
-    /// The first of the times that cost one of them least, while the others keep theirs.
+    /// Returns the cheapest window of a part while all other windows are fixed; the first of
+    /// equally cheap ones.
     fn best_time(&self, k: usize) -> TimeWindow {
         let costs = self.costs(k).into_iter();
         let least = costs.min_by(|(a, _), (b, _)| a.total_cmp(b));
         least.map_or(self.coming[k].life, |(_, life)| life)
     }
 
-    /// Changes the times of two of the largest at once, where that helps, and says whether it
-    /// did.
+    /// Optimises the windows of the largest parts in pairs. Returns whether the cost decreased.
     pub(super) fn improve_twos(&mut self, free: &Range<usize>) -> bool {
         let size = |k: usize| self.coming[k].growth.at_size(1.0)[1].abs();
         let mut largest: Vec<usize> = free.clone().collect();
@@ -135,8 +137,8 @@ impl TransientSchedule {
         is_better
     }
 
-    /// The times of the holes of a design, and those of its parts, exchanged so that a word is
-    /// written and taken back letter by letter, where all of that costs little.
+    /// Swaps windows within the holes of a design, and within its parts, such that a word appears
+    /// and disappears letter by letter, as long as the cost rises by at most [`ORDERLY`].
     fn in_order(mut self, free: &Range<usize>) -> Self {
         let most = self.cost() + ORDERLY;
         for side in Side::BOTH {
@@ -147,7 +149,7 @@ impl TransientSchedule {
                 };
                 let some: Vec<usize> = free.clone().filter(is_one).collect();
                 let read = self.as_read(some);
-                // Those that are exchanged come next to others.
+                // Each pass swaps neighbours, as in bubble sort.
                 for _ in 0..read.len().min(MOST_READ) {
                     let pairs = read.windows(2);
                     if pairs.filter(|pair| self.exchange(pair, most)).count() == 0 {
@@ -159,7 +161,7 @@ impl TransientSchedule {
         self
     }
 
-    /// Some from left to right, or downwards where together they are higher than wide.
+    /// Sorts parts from left to right, or from top to bottom if together they are higher than wide.
     fn as_read(&self, mut some: Vec<usize>) -> Vec<usize> {
         let places = some.iter().map(|&k| self.coming[k].place);
         let size = Bounds::of(places).map_or(DVec2::ZERO, |bounds| bounds.size());
@@ -171,7 +173,8 @@ impl TransientSchedule {
         some
     }
 
-    /// Lets the first of two be there longer, if all then costs `most` at most.
+    /// Swaps the windows of two parts if the first is then visible longer and the cost stays within
+    /// `most`. Returns whether it did.
     fn exchange(&mut self, pair: &[usize], most: f64) -> bool {
         let [a, b] = [0, 1].map(|k| self.coming[pair[k]].life);
         if absence(a) <= absence(b) {
@@ -188,7 +191,7 @@ impl TransientSchedule {
     }
 }
 
-/// The share of the film in which it is not there.
+/// Returns the fraction of the motion during which the part is absent.
 pub(super) fn absence(life: TimeWindow) -> f64 {
     match life.side {
         Side::Source => 1.0 - life.to,

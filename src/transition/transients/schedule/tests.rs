@@ -1,10 +1,10 @@
-//! Of combs side by side.
+//! Tests schedules with combs side by side.
 
 use super::optimise::absence;
 use super::*;
 use crate::work::progress::Silent;
 
-/// It turns much more than what is convex does.
+/// A comb with its left side at `x`. Its outline turns much more than a convex one.
 fn comb(x: f64) -> Vec<DVec2> {
     let mut ring: Vec<DVec2> = (0..=16)
         .map(|k| DVec2::new(f64::from(k) / 16.0, f64::from(k % 2)))
@@ -15,7 +15,8 @@ fn comb(x: f64) -> Vec<DVec2> {
     ring
 }
 
-/// Combs of these designs, side by side, beside something that stays as it is.
+/// Creates a schedule of one comb for each of the given designs, next to a shape that does not
+/// change.
 fn combs(sides: &[Side]) -> TransientSchedule {
     let coming = |(x, &side): (usize, &Side)| ScheduledTransient {
         growth: GrowthProfile::of_scaling(&[comb(x as f64)], 10.0),
@@ -37,7 +38,7 @@ fn lives(timetable: &TransientSchedule) -> Vec<TimeWindow> {
     timetable.coming.iter().map(|coming| coming.life).collect()
 }
 
-/// The same, with times that are planned; nothing is in the way of anything.
+/// Optimises a schedule in which nothing collides.
 fn planned(mut all: TransientSchedule) -> TransientSchedule {
     all.plan(0, |_| Vec::new(), &Silent).expect("wanted");
     all
@@ -85,7 +86,8 @@ fn designs_exchanged_give_the_times_reversed() {
 #[test]
 fn times_that_are_not_free_are_planned_around() {
     let sides = [Side::Source, Side::Target, Side::Target];
-    // What comes may do so in the last quarter only, and what goes has its time.
+    // Target parts are free of collisions only in the last quarter; the window of the source part
+    // is fixed.
     let price = |life: TimeWindow| f64::from(u8::from(life.from < 0.75));
     let mut all = combs(&sides);
     all.set(0, life(Side::Source, 0.5));
@@ -94,7 +96,7 @@ fn times_that_are_not_free_are_planned_around() {
     let lives = lives(&all);
     assert_eq!(lives[0], life(Side::Source, 0.5));
     assert!(lives[1..].iter().all(|life| life.from >= 0.75), "{lives:?}");
-    // Nothing is dear any more.
+    // The collision costs are cleared afterwards.
     assert!(all.costs(1).iter().all(|(cost, _)| *cost < 1.0));
 }
 
@@ -106,8 +108,8 @@ fn two_change_places_where_neither_can_alone() {
         all.set(1, life(Side::Target, second));
         all.cost()
     };
-    // Either may take a quarter or three, and it is dear for the second to be long; less
-    // so than for both to be short, or long.
+    // Each window is a quarter or three quarters long. A long second window has a cost, but it is
+    // cheaper than two short or two long windows.
     let [short, long, now] = [[0.25, 0.25], [0.75, 0.75], [0.25, 0.75]].map(&mut take);
     let dear = (short.min(long) - now) / 2.0;
     assert!(dear > 0.01, "{dear}");
@@ -150,7 +152,7 @@ fn one_that_gets_another_time_is_known_of_by_the_others() {
     let before = all.costs(1);
     all.set(0, life(Side::Source, 1.0));
     assert_ne!(all.costs(1), before);
-    // Times that jump come last, whatever they would save.
+    // The short windows come last, whatever they would save.
     let ranked = all.ranked(1);
     let times = eighths(Side::Target).count();
     assert_eq!(ranked.len(), times + JUMPS.len());

@@ -1,30 +1,30 @@
-//! What of a face is sheared more than at the worse end, and how it is taken back.
+//! Measures by how much a face exceeds the distortion bound, and computes the change that restores
+//! it.
 //!
-//! A face of discrete conformal maps is sheared a little more than its metric, and
-//! around a hole maps do not quite close. So where a face of the film is sheared
-//! more than the worst of its sheet at the end, seen from either design, its map is put
-//! back to the nearest one that is not, and all are integrated anew, some rounds:
-//! alternating projections (Kovalsky, Aigerman, Basri, Lipman, "Large-scale bounded
-//! distortion mappings", 2015, with the matrix that there is). Faces within the
-//! bound are not touched, and the bound is gone beyond smoothly, by no more than
-//! [`SOFT`], so that the film has no kinks.
+//! A face that is flattened conformally is distorted slightly more than its metric, and the maps
+//! around a hole do not quite fit together. If the distortion of a face, seen from either design,
+//! exceeds that of the worst face of its sheet between the designs, its map is replaced by the
+//! nearest map within the bound. All maps are then integrated again, for some rounds: alternating
+//! projections (Kovalsky, Aigerman, Basri, Lipman, "Large-scale bounded distortion mappings", 2015,
+//! with the matrix at hand). Faces within the bound are unchanged. The bound is soft: it is
+//! exceeded smoothly, by at most [`SOFT`], so that the motion has no kinks.
 
 use super::layout::BoundedFace;
 use crate::geometry::DMat2;
 
-/// How far the bound may be gone beyond, as a share of it. A hundredth is not seen,
-/// and soft enough to be recorded.
+/// Maximum relative excess over the distortion bound (heuristic: invisible, and smooth enough to be
+/// recorded).
 const SOFT: f64 = 0.01;
 
-/// What is rounding.
+/// Relative excess that is ignored (tolerance: rounding).
 const NONE: f64 = 1e-12;
 
-/// A map as its part that turns and scales, and the part that is left.
+/// A map, split into a similarity (rotation and scaling) and an anti-similarity (with reflection).
 #[derive(Clone, Copy)]
 struct Halves {
     turning: DMat2,
     flipping: DMat2,
-    /// Their sizes: half the sum and half the difference of the singular values.
+    /// Norms of the two: half the sum and half the difference of the singular values.
     sizes: [f64; 2],
 }
 
@@ -40,7 +40,7 @@ impl Halves {
         }
     }
 
-    /// The ratio of the singular values; infinite of what is turned over.
+    /// Returns the ratio of the singular values; infinite if the map turns faces over.
     fn sheared(self) -> f64 {
         let [turning, flipping] = self.sizes;
         match turning - flipping {
@@ -50,12 +50,12 @@ impl Halves {
     }
 }
 
-/// How much a map is sheared.
+/// Returns the distortion of a map: the ratio of its singular values.
 pub(super) fn sheared(map: DMat2) -> f64 {
     Halves::of(map).sheared()
 }
 
-/// What has to be added to a map that is sheared more than `most`.
+/// Returns the change of a map whose distortion exceeds `most`; `None` if it does not.
 fn back(map: DMat2, most: f64) -> Option<DMat2> {
     let halves = Halves::of(map);
     let beyond = halves.sheared() / most - 1.0;
@@ -76,7 +76,8 @@ fn back(map: DMat2, most: f64) -> Option<DMat2> {
     Some(halves.turning * by[0] + halves.flipping * by[1])
 }
 
-/// What has to be added to the map of a face, seen from both designs.
+/// Returns the change of the map of a face that exceeds the distortion `most`, seen from source or
+/// target; the mean of both changes if it exceeds it in both.
 pub(super) fn taken_back(face: &BoundedFace, map: DMat2, most: f64) -> Option<DMat2> {
     let from_source = back(map, most);
     let from_target = back(map * face.back, most).map(|by| by * face.map.matrix());
@@ -105,7 +106,7 @@ mod tests {
                 "{found}"
             );
         }
-        // Hardly beyond: all of it is left.
+        // A tiny excess is left almost unchanged.
         let by = back(of(3.0 + 1e-6, 1.0), 3.0).expect("beyond");
         assert!(by.x_axis.length() < 1e-13, "{by}");
     }

@@ -1,45 +1,48 @@
-//! Flattening a sheet without shearing it: one factor e^u for each vertex, with
-//! squared lengths l² e^(u_i + u_j), for which angles about each vertex add up to a
-//! full turn.
+//! Flattens a sheet conformally.
 //!
-//! Springborn, Schröder, Pinkall, "Conformal equivalence of triangle meshes" (2008),
-//! §§3 and 4: such u are where a convex energy is least. Its gradient is what the
-//! angles lack, its Hessian half the cotangent Laplacian; Newton's method with
-//! steps that are halved until the energy does not rise again behind them. Where the
-//! lengths of a face break the triangle inequality its angles are π, 0 and 0, which
-//! keeps the energy convex: a few such faces are flat too, as no triangles, and are put
-//! right with what is sheared too much. With u = 0 along the boundary sizes change least.
+//! Each vertex has a factor e^u. The squared length of an edge becomes l² e^(u_i + u_j), and the
+//! factors are chosen such that the angles around each vertex sum to 2π.
 //!
-//! Guaranteed: nothing is allocated, it ends, and depends on nothing but the sheet
-//! and t. Not guaranteed: that it gets there; it says whether it did.
+//! Springborn, Schröder, Pinkall, "Conformal equivalence of triangle meshes" (2008), sections 3 and
+//! 4: these u minimise a convex energy. Its gradient is the missing angle at each vertex, its
+//! Hessian is half the cotangent Laplacian. Newton's method halves each step until the energy does
+//! not rise again before its end. If the lengths of a face violate the triangle inequality, its
+//! angles are π, 0 and 0, which keeps the energy convex. A few such faces count as flat, although
+//! they are no triangles; they are corrected with the faces that exceed the distortion bound. With
+//! u = 0 along the outer boundary, sizes change least.
+//!
+//! Guaranteed: nothing is allocated; the method terminates; the result depends only on the sheet
+//! and t. Not guaranteed: convergence, which is reported.
 
 use super::sheet::{FIXED, FaceSheet};
 use crate::numerics::PatternWorkspace;
 
-/// What the angles about a vertex may lack when a sheet is flat, in radians. The places
-/// then are off by as little, and Newton's method has long begun to converge.
+/// Largest missing angle at a vertex of a flat sheet, in radians (tolerance: positions are then as
+/// accurate, and Newton's method has begun to converge quadratically).
 const FLAT: f64 = 1e-9;
 
-/// What is not worth another step.
+/// Largest missing angle, in radians, at which no further step is made (tolerance: rounding).
 const ENOUGH: f64 = 1e-13;
 
-/// Steps, and how often each is halved.
+/// Maximum number of Newton steps (resource limit).
 const STEPS: u32 = 60;
+/// Maximum number of times that a step is halved (resource limit).
 const HALVED: u32 = 40;
 
-/// A corner of a face: of the two sides that meet there the dot product and the
-/// cross product, twice the area.
+/// Dot product and cross product of the two sides that meet at a corner of a face. The cross
+/// product is twice the area.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CornerProducts {
     pub dot: f64,
     pub cross: f64,
 }
 
-/// The memory to flatten a sheet in, and what came of it.
+/// Memory to flatten a sheet, and the result.
 #[derive(Debug)]
 pub(super) struct Flattening {
-    /// Of each unknown, and what its angles lack.
+    /// For each unknown, the logarithm u of its factor.
     u: Vec<f64>,
+    /// For each unknown, its missing angle in radians.
     lack: Vec<f64>,
     step: Vec<f64>,
     trial: Vec<f64>,
@@ -62,12 +65,12 @@ impl Flattening {
         }
     }
 
-    /// The corners of the faces as they were flattened last.
+    /// Returns the corners of all faces after the last flattening.
     pub(super) fn corners(&self) -> &[[CornerProducts; 3]] {
         &self.corners
     }
 
-    /// Flattens a sheet at t; whether it is flat.
+    /// Flattens a sheet at t. Returns whether it is flat.
     pub(super) fn flatten(&mut self, sheet: &FaceSheet, t: f64) -> bool {
         self.u.fill(0.0);
         self.trial.fill(0.0);
@@ -90,7 +93,7 @@ impl Flattening {
         off <= FLAT
     }
 
-    /// Newton's step from where it is; whether there is one.
+    /// Computes the Newton step. Returns whether there is one.
     fn set_step(&mut self, sheet: &FaceSheet) -> bool {
         let (Some(pattern), Some(matrix)) = (&sheet.pattern, &mut self.matrix) else {
             return false;
@@ -117,7 +120,8 @@ impl Flattening {
         pattern.solve(matrix, &mut self.step)
     }
 
-    /// Goes along the step as far as is of use; how far off it is then.
+    /// Moves along the step, as far as the energy decreases. Returns the largest missing angle
+    /// then; `None` if the energy does not decrease.
     fn go(&mut self, sheet: &FaceSheet, t: f64) -> Option<f64> {
         let slope = self.slope();
         let mut length = 1.0;
@@ -126,7 +130,7 @@ impl Flattening {
                 *trial = u + length * step;
             }
             let off = self.measure(sheet, t);
-            // Beyond the least it rises again; not a number is false.
+            // Beyond the minimum the energy rises again. The comparison is false for NaN.
             if self.slope() <= 0.5 * slope.abs() {
                 self.u.copy_from_slice(&self.trial);
                 return Some(off);
@@ -136,13 +140,13 @@ impl Flattening {
         None
     }
 
-    /// How the energy changes along the step.
+    /// Returns the derivative of the energy along the step.
     fn slope(&self) -> f64 {
         self.lack.iter().zip(&self.step).map(|(a, b)| a * b).sum()
     }
 
-    /// Corners, and what angles lack, with the factors that are tried; the most that any
-    /// lacks.
+    /// Computes corners and missing angles for the factors in `trial`. Returns the largest missing
+    /// angle.
     fn measure(&mut self, sheet: &FaceSheet, t: f64) -> f64 {
         for (scale, u) in self.scales.iter_mut().zip(&self.trial) {
             *scale = u.exp();
@@ -173,7 +177,7 @@ impl Flattening {
     }
 }
 
-/// The corners of a face with these squared lengths of its sides.
+/// Returns the corners of a face with the given squared side lengths.
 fn corners_of(squared: [f64; 3]) -> [CornerProducts; 3] {
     let cross = twice_area(squared.map(f64::sqrt));
     [0, 1, 2].map(|k| CornerProducts {
@@ -182,9 +186,8 @@ fn corners_of(squared: [f64; 3]) -> [CornerProducts; 3] {
     })
 }
 
-/// Twice the area of a triangle, zero where there is none of such lengths; to the last
-/// digits also where it is thin (Kahan, "Miscalculating area and angles of a
-/// needle-like triangle").
+/// Returns twice the area of a triangle; 0 if the lengths violate the triangle inequality. Accurate
+/// also for thin triangles (Kahan, "Miscalculating area and angles of a needle-like triangle").
 fn twice_area(mut lengths: [f64; 3]) -> f64 {
     lengths.sort_unstable_by(f64::total_cmp);
     let [c, b, a] = lengths;

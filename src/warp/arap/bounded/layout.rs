@@ -1,4 +1,4 @@
-//! Flat faces side by side, and the maps that take the source there.
+//! Lays out flattened faces in the plane and computes the maps from the source to them.
 
 use super::flat::CornerProducts;
 use super::sheet::FaceSheet;
@@ -6,19 +6,19 @@ use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, PolarDecomposition, twice_signed_area};
 use crate::warp::arap::assembly::FaceMap;
 
-/// What is known of a face at every t.
+/// Properties of a face that do not depend on t.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::warp::arap) struct BoundedFace {
     pub(super) corners: [u32; 3],
-    /// From source to target.
+    /// Map from source to target.
     pub(super) map: PolarDecomposition,
-    /// Gradients of the hat functions of the second and third corner.
+    /// Gradients of the hat functions of the second and third corner in the source.
     pub(super) gradients: DMat2,
-    /// W times them.
+    /// W times these gradients.
     weighted: DMat2,
-    /// From target to source.
+    /// Linear map from target to source.
     pub(super) back: DMat2,
-    /// How much it counts where the sheet turns: the same of both designs.
+    /// Weight of the face in the rotation of the sheet; the same for both designs.
     mass: f64,
 }
 
@@ -39,13 +39,14 @@ impl BoundedFace {
         }
     }
 
-    /// What the face's own map is beside the straight line, of what its corners are.
+    /// Returns the linear map that is defined by the vectors at the corners. If `of` returns the
+    /// deviations of the vertices, this is the deviation of the face's map.
     pub(in crate::warp::arap) fn strayed(&self, of: impl Fn(u32) -> DVec2) -> DMat2 {
         let [first, second, third] = self.corners.map(of);
         DMat2::from_cols(second - first, third - first) * self.gradients.transpose()
     }
 
-    /// Adds M W g to the corners.
+    /// Adds M W g to the forces on the corners, where M is `map`.
     pub(in crate::warp::arap) fn pull(&self, map: DMat2, forces: &mut [DVec2]) {
         let [first, second, third] = self.corners.map(|v| v as usize);
         let pulled = map * self.weighted;
@@ -55,26 +56,27 @@ impl BoundedFace {
     }
 }
 
-/// The sides of a face whose first runs along x.
+/// Returns the sides of a face whose first side points along x; `length` is the length of that
+/// side.
 fn sides([first, ..]: &[CornerProducts; 3], length: f64) -> [DVec2; 3] {
     let along = DVec2::new(length, 0.0);
     let to_third = DVec2::new(first.dot, first.cross) / length;
     [along, to_third - along, -to_third]
 }
 
-/// The squared length of the first side: its dot products at both ends add up to it.
+/// Returns the length of the first side. Its square is the sum of the dot products at both ends.
 fn first_length([first, second, _]: &[CornerProducts; 3]) -> f64 {
     (first.dot + second.dot).sqrt()
 }
 
-/// Writes the map of each face, the first with its first side along x.
+/// Computes the map of each face. The first face has its first side along x.
 pub(super) fn laid_out(
     sheet: &FaceSheet,
     faces: &[BoundedFace],
     corners: &[[CornerProducts; 3]],
     maps: &mut [DMat2],
 ) {
-    // First each face as it lies: its second and third corner from the first.
+    // First, the vectors from the first corner of each face to the second and the third.
     for k in 0..faces.len() {
         let own = sides(&corners[k], first_length(&corners[k]));
         let turn = match k {
@@ -83,7 +85,7 @@ pub(super) fn laid_out(
                 let reached = sheet.reached[k];
                 let before = maps[reached.from as usize];
                 let there = [before.x_axis, before.y_axis - before.x_axis, -before.y_axis];
-                // The same side, run the other way.
+                // The same side, traversed in the opposite direction.
                 let side = -there[reached.there as usize];
                 conjugate(own[reached.here as usize])
                     .rotate(side)
@@ -97,7 +99,7 @@ pub(super) fn laid_out(
     }
 }
 
-/// Turns all maps together so that they turn in the mean as by the polar homotopy.
+/// Rotates all maps by one angle, such that on average they rotate as in the polar homotopy.
 pub(super) fn turn_along(faces: &[BoundedFace], t: f64, maps: &mut [DMat2]) {
     let mut sum = DVec2::ZERO;
     for (face, &map) in faces.iter().zip(maps.iter()) {
@@ -112,7 +114,7 @@ pub(super) fn turn_along(faces: &[BoundedFace], t: f64, maps: &mut [DMat2]) {
     maps.iter_mut().for_each(|map| *map = turn * *map);
 }
 
-/// The rotation of a map, as a unit vector.
+/// Returns the rotation of a map, as a unit vector.
 fn rotation(map: DMat2) -> DVec2 {
     let (x, y) = (map.x_axis, map.y_axis);
     DVec2::new(x.x + y.y, x.y - y.x).normalize_or(DVec2::X)

@@ -1,9 +1,8 @@
-//! Faces that share edges, and what of them can be scaled.
+//! Sheets of faces that share edges, and the unknown scale factors of their vertices.
 //!
-//! Every vertex has a factor by which lengths about it are scaled, 1 along
-//! the outer boundary. All vertices around a hole have one in common: with it the
-//! angles around the hole close, as those of the designs do. A vertex at which
-//! fans of faces touch counts once for each fan.
+//! Each vertex has a factor that scales the lengths around it. It is 1 along the outer boundary.
+//! All vertices around a hole have one factor in common, which makes the angles around the hole
+//! close as in the designs. A vertex at which several fans of faces touch counts once per fan.
 
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
@@ -12,42 +11,43 @@ use crate::numerics::PatternCholesky;
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
-/// No unknown, or no entry: the factor is 1.
+/// Marks a vertex without an unknown factor (its factor is 1), or an absent matrix entry.
 pub(super) const FIXED: u32 = u32::MAX;
 
-/// A dual component of a mesh.
+/// A sheet: a set of faces connected by shared edges.
 #[derive(Debug)]
 pub(super) struct FaceSheet {
-    /// Its faces, each but the first one beside one before it.
+    /// Indices of its faces. Each face except the first shares a side with an earlier one.
     pub faces: Vec<u32>,
-    /// By which side each face was reached; nothing of the first.
+    /// For each face, the side across which it was reached; unused for the first.
     pub reached: Vec<SheetTreeLink>,
-    /// Of each face the squared lengths of its sides in source and target; side k
-    /// runs from corner k to the next.
+    /// For each face, the squared lengths of its sides in source and target; side k runs from
+    /// corner k to the next.
     pub lengths: Vec<[[f64; 3]; 2]>,
-    /// The unknown of each corner of each face.
+    /// For each face, the indices of the unknowns at its corners, or [`FIXED`].
     pub unknowns: Vec<[u32; 3]>,
-    /// What the angles of each unknown add up to when the sheet is flat.
+    /// For each unknown, the sum of its angles when the sheet is flat, in radians.
     pub sums: Vec<f64>,
-    /// None where there is nothing to scale, or no room.
+    /// Pattern of the matrix; `None` if there are no unknowns or the memory does not suffice.
     pub pattern: Option<PatternCholesky>,
-    /// Of each side of each face the entries of its first end, its second, and both.
+    /// For each side of each face, the indices of the matrix entries of its first end, its second
+    /// end, and both.
     pub entries: Vec<[[u32; 3]; 3]>,
 }
 
-/// The side by which a face was reached.
+/// The side across which a face was reached from an earlier one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SheetTreeLink {
-    /// The face before it, by its place in the sheet.
+    /// Index of the earlier face within the sheet.
     pub from: u32,
-    /// The side of that face.
+    /// Side of the earlier face.
     pub there: u8,
-    /// The side of this one.
+    /// Side of the face that was reached.
     pub here: u8,
 }
 
 impl FaceSheet {
-    /// All of a mesh.
+    /// Returns all sheets of a mesh.
     pub(super) fn all(mesh: &CompatibleMesh) -> Vec<Self> {
         let connectivity = mesh.connectivity();
         let count = mesh.faces().len();
@@ -87,19 +87,20 @@ impl FaceSheet {
     }
 }
 
-/// For each corner the number of its fan: corners at one vertex, of faces that
-/// share edges there.
+/// Returns, for each corner of each face, the index of its fan. Corners at the same vertex belong
+/// to one fan if their faces share edges there.
 fn fans(connectivity: &Connectivity, faces: usize) -> Vec<u32> {
     let halves = (0..faces).flat_map(|f| (0..3).map(move |k| (f, k)));
     let links = halves.filter_map(|(face, k)| {
         let twin = connectivity.twin(face, k)?;
-        // The side's end here is its beginning there.
+        // The end of the side in this face is its start in the other face.
         Some([(3 * face + (k + 1) % 3) as u32, twin])
     });
     components(3 * faces, links)
 }
 
-/// Faces from one on, breadth first.
+/// Returns the faces connected to `seed`, in breadth-first order, with the sides across which they
+/// were reached.
 fn walk(
     connectivity: &Connectivity,
     seed: usize,
@@ -129,10 +130,11 @@ fn walk(
     (faces, reached)
 }
 
-/// What is unknown of a sheet.
+/// The unknowns of a sheet.
 struct Numbering {
-    /// Of each fan of the mesh; of this sheet's only.
+    /// For each fan of the mesh, its unknown; only fans of this sheet have one.
     unknown: Vec<u32>,
+    /// For each unknown, the sum of its angles when the sheet is flat, in radians.
     sums: Vec<f64>,
 }
 
@@ -156,11 +158,12 @@ impl Numbering {
         let angles = angles(mesh, fans, faces);
         let turning = |rim: &[u32]| -> f64 {
             let turns = rim.iter().map(|&fan| PI - angles[fan as usize]);
-            // Whole turns, once rounding is off.
+            // Rounded to whole turns.
             TAU * (turns.sum::<f64>() / TAU).round()
         };
         let turnings: Vec<f64> = rims.iter().map(|rim| turning(rim)).collect();
-        // A hole is run the other way round.
+        // The loop around a hole runs in the opposite direction, so the outer loop has the largest
+        // turning.
         let outer =
             (0..rims.len()).max_by(|&a, &b| turnings[a].total_cmp(&turnings[b]).then(b.cmp(&a)));
         for (k, rim) in rims.iter().enumerate() {
@@ -174,13 +177,13 @@ impl Numbering {
     }
 }
 
-/// The boundary walks of a sheet, by their fans.
+/// Returns the boundary loops of a sheet as lists of fans.
 fn rims(mesh: &CompatibleMesh, fans: &[u32], faces: &[u32]) -> Vec<Vec<u32>> {
     let corners = faces
         .iter()
         .flat_map(|&f| (0..3).map(move |k| (f as usize, k)));
     let open = corners.filter(|&(f, k)| mesh.connectivity().twin(f, k).is_none());
-    // At each fan on the boundary one side leaves it.
+    // At each fan on the boundary, exactly one boundary side starts.
     let mut next = std::collections::BTreeMap::new();
     for (f, k) in open {
         next.insert(fans[3 * f + k], fans[3 * f + (k + 1) % 3]);
@@ -197,7 +200,7 @@ fn rims(mesh: &CompatibleMesh, fans: &[u32], faces: &[u32]) -> Vec<Vec<u32>> {
     rims
 }
 
-/// The angles of the source about each fan.
+/// Returns the sum of the angles at each fan in the source, in radians.
 fn angles(mesh: &CompatibleMesh, fans: &[u32], faces: &[u32]) -> Vec<f64> {
     let mut sums = vec![0.0; fans.len()];
     for &face in faces {
@@ -218,7 +221,7 @@ fn lengths(mesh: &CompatibleMesh, face: usize) -> [[f64; 3]; 2] {
     })
 }
 
-/// Where the matrix of a sheet has entries, and which are those of each side.
+/// Returns the pattern of the matrix of a sheet, and the indices of the entries of each side.
 fn pattern(
     unknowns: usize,
     of_corners: &[[u32; 3]],
@@ -236,7 +239,7 @@ fn pattern(
         .map(|corners| {
             [0, 1, 2].map(|k| {
                 let [i, j] = [corners[k], corners[(k + 1) % 3]];
-                // Ends of one unknown do not pull at each other.
+                // Both ends have the same factor, so this side couples nothing.
                 if i == j {
                     return [FIXED; 3];
                 }

@@ -1,4 +1,4 @@
-//! Films of bounded distortion, seen from outside.
+//! Tests motions with bounded distortion.
 
 use super::super::assembly::LocalMaps;
 use super::super::evaluation_times::EvaluationTimes;
@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 const N: u32 = 12;
 
-/// A plate of N × N squares about the origin, 2 wide, and its image.
+/// A square plate of N × N cells about the origin, with side length 2, and its image.
 fn plate(image: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
     let point =
         |i: u32, j: u32| DVec2::new(f64::from(i), f64::from(j)) * (2.0 / f64::from(N)) - 1.0;
@@ -22,7 +22,7 @@ fn plate(image: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
     let squares = (0..N).flat_map(|j| (0..N).map(move |i| j * (N + 1) + i));
     let faces = squares.flat_map(|a| {
         let [b, c, d] = [a + 1, a + N + 2, a + N + 1];
-        // Diagonals that alternate: no direction is another's better.
+        // Diagonals alternate, so that no direction is preferred.
         match (a / (N + 1) + a % (N + 1)) % 2 {
             0 => [[a, b, c], [a, c, d]],
             _ => [[a, b, d], [b, c, d]],
@@ -66,7 +66,7 @@ fn bounded(mesh: &CompatibleMesh) -> Arap {
     Arap::build(mesh, &options, &Silent).expect("a film")
 }
 
-/// The most that a face is sheared between the source and some places.
+/// Returns the largest distortion of a face between the source and the positions `places`.
 fn sheared(mesh: &CompatibleMesh, places: &[DVec2]) -> f64 {
     let sheared = mesh.faces().iter().map(|face| {
         let [p, q] = [mesh.source(), places].map(|points| {
@@ -80,7 +80,7 @@ fn sheared(mesh: &CompatibleMesh, places: &[DVec2]) -> f64 {
     sheared.fold(0.0, f64::max)
 }
 
-/// The worst over the film by the worse end.
+/// Returns the largest distortion during the motion, relative to that of the target.
 fn by_end(mesh: &CompatibleMesh, film: &Arap) -> f64 {
     let mut placer = film.placer();
     let worst = (0..=32).map(|step| {
@@ -90,7 +90,7 @@ fn by_end(mesh: &CompatibleMesh, film: &Arap) -> f64 {
     worst.fold(0.0, f64::max) / sheared(mesh, mesh.target())
 }
 
-/// One part of it is stretched and bent.
+/// Stretches and bends the plane near the origin.
 fn stretched(p: DVec2) -> DVec2 {
     let bump = (-3.0 * p.length_squared()).exp();
     DVec2::new(
@@ -132,7 +132,7 @@ fn it_is_the_conformal_image_of_the_metric_between() {
                         let ratio = length(places, a, b) / of_metric(a, b);
                         assert!((ratio - 1.0).abs() < 1e-9, "{t}: {ratio}");
                     }
-                    // Cross ratios of lengths do not change.
+                    // Conformal equivalence preserves the cross-ratios of lengths.
                     Some(twin) => {
                         let d = mesh.faces()[twin as usize / 3][(twin as usize + 2) % 3];
                         let ratio =
@@ -149,13 +149,13 @@ fn it_is_the_conformal_image_of_the_metric_between() {
 
 #[test]
 fn angles_around_a_hole_close() {
-    // Half of the ring grows, and it is turned.
+    // Half of the ring grows while the ring rotates.
     let mesh = ring(|p| {
         DMat2::from_angle(2.5) * p * (1.0 + 0.4 * p.x) * 1.1 + DVec2::new(0.0, 0.1 * p.x * p.x)
     });
     let film = bounded(&mesh);
     assert_eq!(film.unflattened_count(), 0);
-    // Turned back it is the same film.
+    // The swapped motion is the same in reverse.
     let back = film.swapped(&Silent).expect("a film");
     for (mesh, film) in [(&mesh, &film), (back.mesh(), &back)] {
         let found = by_end(mesh, film);
@@ -180,7 +180,7 @@ fn angles_around_a_hole_close() {
 
 #[test]
 fn a_needle_keeps_the_bound() {
-    // Of a face that is that thin its neighbours hardly take notice.
+    // The neighbours of such a thin face hardly affect it.
     let even = ring(|p| p);
     let (inner, next) = (12, 13);
     let near = |points: &[DVec2], share: f64| {
@@ -233,7 +233,7 @@ fn whole_turns_are_kept() {
     let film = Arap::build(&mesh, &options, &Silent).expect("a film");
     let mut placer = film.placer();
     let (mut turned, mut before) = (0.0, 0.0);
-    // From the left to the right of the middle row.
+    // The left and right end of the middle row.
     let ends = [N / 2 * (N + 1), N / 2 * (N + 1) + N].map(|v| v as usize);
     for step in 0..=64 {
         placer.place(f64::from(step) / 64.0);

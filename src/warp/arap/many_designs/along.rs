@@ -1,4 +1,4 @@
-//! A blend whose weights go along a way of their own: many designs as a film.
+//! A path through the blends of many designs, as a warp with a time parameter.
 
 use super::ArapBlend;
 use crate::compatible::CompatibleMesh;
@@ -6,13 +6,13 @@ use crate::warp::{Placement, Placer, Warp};
 use std::fmt::{Debug, Formatter, Result};
 use std::sync::Arc;
 
-/// The weights at t, one for each design, which sum to one.
+/// Writes the weights at t, one per design, which sum to 1.
 pub type WeightsAt = dyn Fn(f64, &mut [f64]) + Send + Sync;
 
-/// Rigid parts of many designs along a way through their blends, t from 0 to 1. What
-/// is there at its ends are its source and target. Cloning is cheap.
+/// As-rigid-as-possible interpolation of many designs along a path through their blends, for t from
+/// 0 to 1. Its source and target are the blends at t = 0 and t = 1. Cloning is cheap.
 ///
-/// Guaranteed: at each t the blend itself, to the last bit.
+/// Guaranteed: at each t the result equals the blend bit for bit.
 #[derive(Clone)]
 pub struct AlongBlend {
     blend: ArapBlend,
@@ -29,7 +29,8 @@ impl Debug for AlongBlend {
 }
 
 impl AlongBlend {
-    /// Along these weights, which are asked for in any order and beyond [0, 1] too.
+    /// Creates the path with the given weights. They are requested in any order of t, also outside
+    /// [0, 1].
     #[must_use]
     pub fn new(
         blend: ArapBlend,
@@ -48,7 +49,7 @@ impl AlongBlend {
         }
     }
 
-    /// The mesh as it is at both ends, where it may fold.
+    /// Returns the mesh with the positions at t = 0 and t = 1, where faces may be folded.
     #[must_use]
     pub fn mesh(&self) -> &CompatibleMesh {
         &self.ends

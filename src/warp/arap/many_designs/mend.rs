@@ -1,39 +1,40 @@
-//! Faces that are turned over in a blend are turned back: by moving vertices inside, which
-//! changes nothing of what is seen of a solid, as far as that goes.
+//! Unfolds the faces of a blend that are turned over, by moving vertices.
 //!
-//! A vertex goes to where the least of its faces is largest: areas are linear in its place,
-//! so that this is a linear programme in three unknowns, solved by trying the triples of
-//! faces (Freitag, Plassmann 2000, "Local optimization-based simplicial mesh untangling and
-//! improvement", with areas in the place of volumes). Where that is not enough, the corners of
-//! what is left are moved as little as opens it (Müller, Heidelberger, Hennix, Ratcliff 2007,
-//! "Position based dynamics", with areas as constraints). Guaranteed: a blend that folds
-//! nowhere stays as it is, and outlines do where vertices inside have room. Not guaranteed:
-//! that nothing is folded any more.
+//! Interior vertices are moved first, which does not change the outline. Each is moved to the point
+//! where the smallest of its faces is largest. Areas are linear in its position, so this is a
+//! linear programme in three unknowns, which is solved by trying all triples of faces (Freitag,
+//! Plassmann 2000, "Local optimization-based simplicial mesh untangling and improvement", with
+//! areas instead of volumes). If that does not suffice, the corners of each folded face are moved
+//! just far enough to open it (Müller, Heidelberger, Hennix, Ratcliff 2007, "Position based
+//! dynamics", with areas as constraints).
+//!
+//! Guaranteed: a blend without folds is unchanged; outlines are unchanged if moving interior
+//! vertices suffices. Not guaranteed: that all faces can be unfolded.
 
 use crate::compatible::CompatibleFamily;
 use crate::geometry::{DMat3, DVec2, DVec3, orient2d};
 
-/// Rounds over the vertices of what is folded. With these alone 9 of 200 blends of three
-/// devices and a brick stayed folded and 4 of a frog, a rat, an octopus and a child; of two
-/// more families that had folded at 187 and 192 none.
+/// Maximum number of rounds that move only interior vertices (resource limit).
 const ROUNDS: usize = 12;
 
-/// Rounds after these in which outlines make room as well: where a face has no vertex inside,
-/// or these have no room. One of those 200 blends stayed folded, with 80 rounds as well.
+/// Maximum number of further rounds that also move vertices on outlines (resource limit).
 const PUSHES: usize = 20;
 
-/// What twice the area of a face that is pushed open is of the squares of its sides.
+/// Twice the area of a face that was pushed open, divided by the sum of its squared side lengths
+/// (heuristic).
 const THIN: f64 = 1e-3;
 
-/// A vertex with more faces is left where it is: triples grow with the cube.
+/// Vertices with more faces are not moved (resource limit: the number of triples grows with the
+/// cube).
 const MOST_FACES: usize = 16;
 
-/// Which faces a vertex inside has.
+/// The faces around each interior vertex.
 #[derive(Clone, Debug)]
 pub(super) struct Mender {
-    /// For each vertex where its faces begin among `around`, and one behind the last; none of
-    /// those on a boundary.
+    /// For each vertex, the index in `around` at which its faces start, and at the end the length
+    /// of `around`. Vertices on a boundary or a bar have no faces here.
     starts: Vec<u32>,
+    /// Indices of the faces, vertex by vertex.
     around: Vec<u32>,
 }
 
@@ -63,7 +64,7 @@ impl Mender {
         Self { starts, around }
     }
 
-    /// Turns back what is turned over, as far as there is room, and says whether all is.
+    /// Unfolds folded faces as far as possible. Returns whether none is left.
     pub fn mend(&self, faces: &[[u32; 3]], places: &mut [DVec2]) -> bool {
         for round in 0..ROUNDS + PUSHES {
             let mut is_done = true;
@@ -77,7 +78,7 @@ impl Mender {
                 }
                 for &v in face {
                     self.settle(v, faces, places);
-                    // What is around it may have to make room.
+                    // The neighbours may have to make room first.
                     for &f in self.faces_of(v) {
                         let others = faces[f as usize];
                         others.iter().for_each(|&w| self.settle(w, faces, places));
@@ -96,13 +97,13 @@ impl Mender {
         &self.around[from..to]
     }
 
-    /// Moves a vertex to where its least face is largest.
+    /// Moves a vertex to the position where the smallest of its faces is largest.
     fn settle(&self, v: u32, faces: &[[u32; 3]], places: &mut [DVec2]) {
         let own = self.faces_of(v);
         if own.len() < 3 || own.len() > MOST_FACES {
             return;
         }
-        // Twice the area of a face is n · p + c at a place p of the vertex.
+        // Twice the area of a face is n · p + c, where p is the position of the vertex.
         let mut lines = [DVec3::ZERO; MOST_FACES];
         for (line, &f) in lines.iter_mut().zip(own) {
             let face = faces[f as usize];
@@ -137,15 +138,15 @@ impl Mender {
     }
 }
 
-/// Moves the corners of a face just so far that it is not turned over any more, all together
-/// no more than they must.
+/// Moves the corners of a folded face just far enough to open it; the sum of the squared
+/// displacements is minimal.
 fn push(places: &mut [DVec2], face: [u32; 3]) {
     let [a, b, c] = face.map(|v| places[v as usize]);
-    // How twice the area grows with each corner.
+    // Gradients of twice the area with respect to each corner.
     let ways = [(c - b).perp(), (a - c).perp(), (b - a).perp()];
     let square: f64 = ways.iter().map(|way| way.length_squared()).sum();
     let lack = THIN * square - (b - a).perp_dot(c - a);
-    // A face that is a point has no way out.
+    // If all corners coincide, there is no direction to move them.
     if lack > 0.0 && square > 0.0 {
         for (v, way) in face.into_iter().zip(ways) {
             places[v as usize] += way * (lack / square);
@@ -158,9 +159,10 @@ fn is_folded(places: &[DVec2], face: [u32; 3]) -> bool {
     orient2d(a, b, c) <= 0.0
 }
 
-/// Where three faces are of one area.
+/// Returns the position of the vertex at which three faces have equal area; `None` if there is none
+/// or many.
 fn level(a: DVec3, b: DVec3, c: DVec3) -> Option<DVec2> {
-    // n · p − r = −c for all three.
+    // n · p − r = −c for each of the three, where r is twice the common area.
     let row = |line: DVec3| DVec3::new(line.x, line.y, -1.0);
     let matrix = DMat3::from_cols(row(a), row(b), row(c)).transpose();
     if matrix.determinant() == 0.0 {
@@ -174,7 +176,7 @@ fn level(a: DVec3, b: DVec3, c: DVec3) -> Option<DVec2> {
 mod tests {
     use super::*;
 
-    /// A square around a vertex in its middle.
+    /// A square with one vertex inside, at `middle`.
     fn square(middle: DVec2) -> (Vec<[u32; 3]>, Vec<DVec2>) {
         let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
         let faces = (0..4).map(|k| [k, (k + 1) % 4, 4]).collect();

@@ -1,29 +1,31 @@
-//! Where the connected parts of many designs are as wholes, which the energy leaves open:
-//! they are carried about the whole as it turns, as parts of two designs are.
+//! Positions of the connected parts of many designs, which the energy leaves open.
+//!
+//! As for two designs, the parts move around the centroid of the whole design as it rotates.
 
 use crate::compatible::{BarElement, CompatibleFamily};
 use crate::geometry::{DMat2, DVec2, twice_signed_area};
 
-/// The connected parts and where they are as wholes.
+/// The connected parts and their positions within the whole design.
 #[derive(Debug)]
 pub(super) struct BlendParts {
-    /// For each vertex its part.
+    /// For each vertex, the index of its part.
     pub of_vertex: Vec<u32>,
-    /// For each vertex its share of its part's mass.
+    /// For each vertex, its fraction of the mass of its part.
     shares: Vec<f64>,
-    /// For each design its rotation against what all have in common, in radians.
+    /// For each design, its rotation relative to a common orientation, in radians.
     angles: Vec<f64>,
-    /// For each part and each design its offset from the whole's centroid, turned back;
-    /// parts first.
+    /// For each part, and within it each design: the offset of the part's centroid from the
+    /// centroid of the whole design, rotated back to the common orientation.
     turned: Vec<DVec2>,
 }
 
-/// Σ w_j p_j.
+/// Returns Σ w_j p_j.
 pub(super) fn blended(weights: &[f64], places: &[DVec2]) -> DVec2 {
     weights.iter().zip(places).map(|(&w, &p)| p * w).sum()
 }
 
-/// Fixed masses of the vertices: the mean of the designs' normalised lumped areas.
+/// Returns the masses of the vertices: the mean over the designs of the areas around each vertex
+/// (bars count as half their squared length), where each design has the total mass 1.
 fn masses(family: &CompatibleFamily) -> Vec<f64> {
     let mut masses = vec![0.0; family.embeddings()[0].len()];
     for places in family.embeddings() {
@@ -63,7 +65,7 @@ impl BlendParts {
         let designs = family.count();
         let angles = common_angles(family, masses);
         let mut turned = vec![DVec2::ZERO; count * designs];
-        // The only part is the whole.
+        // A single part has no offset.
         if count > 1 {
             for (design, places) in family.embeddings().iter().enumerate() {
                 let mut centres = vec![DVec2::ZERO; count];
@@ -90,13 +92,13 @@ impl BlendParts {
         }
     }
 
-    /// How many parts there are.
+    /// Returns the number of parts.
     pub fn count(&self) -> usize {
         self.turned.len() / self.angles.len()
     }
 
-    /// What has to be added to the deviation of each part: its mean is taken out, and
-    /// parts are carried about the whole as it turns.
+    /// Computes the shift of each part that must be added to `deviation`. It removes the part's
+    /// mean deviation and moves the part around the centroid of the whole design as it rotates.
     pub fn shifts(
         &self,
         weights: &[f64],
@@ -109,7 +111,8 @@ impl BlendParts {
             .iter_mut()
             .zip(self.turned.chunks_exact(weights.len()))
         {
-            // By the operations of the other side, so that both are equal at a design.
+            // Computed by the same operations as the blended offset, so that both are equal in a
+            // design.
             let ends = turned.iter().zip(&self.angles).zip(weights);
             let straight: DVec2 = ends
                 .map(|((&end, &angle), &w)| DMat2::from_angle(angle) * end * w)
@@ -122,12 +125,12 @@ impl BlendParts {
     }
 }
 
-/// For each design the rotation about its centroid that lays it on all others best, least
-/// squares over all pairs of designs (generalised Procrustes analysis, Gower 1975, of
-/// rotations alone).
+/// Returns, for each design, its rotation relative to an orientation common to all. The rotations
+/// about the centroids minimise the squared distances between all pairs of designs (generalised
+/// Procrustes analysis, Gower 1975, restricted to rotations).
 fn common_angles(family: &CompatibleFamily, masses: &[f64]) -> Vec<f64> {
-    /// A power iteration, whose error falls by some digits a round unless designs agree on
-    /// no rotation.
+    /// Maximum number of power iterations (resource limit: convergence is fast unless the designs
+    /// suggest no common orientation).
     const ROUNDS: usize = 200;
     let count = family.count();
     let total: f64 = masses.iter().sum();
@@ -143,7 +146,7 @@ fn common_angles(family: &CompatibleFamily, masses: &[f64]) -> Vec<f64> {
             places.iter().map(|&p| p - centre).collect()
         })
         .collect();
-    // As complex numbers: the argument turns design k onto design j.
+    // As complex numbers: the argument is the angle that rotates design k onto design j.
     let onto = |j: usize, k: usize| -> DVec2 {
         let places = centred[j].iter().zip(&centred[k]).zip(masses);
         places
@@ -159,7 +162,8 @@ fn common_angles(family: &CompatibleFamily, masses: &[f64]) -> Vec<f64> {
         for (j, turn) in turns.iter_mut().enumerate() {
             let others = (0..count).filter(|&k| k != j);
             let sum: DVec2 = others.map(|k| before[k].rotate(products[j][k])).sum();
-            // Half of the way, or two designs would change places for ever.
+            // Only half of the step is taken; otherwise two designs would swap their rotations for
+            // ever.
             *turn = (before[j] + sum.normalize_or(before[j])).normalize_or(before[j]);
         }
         let moved = turns.iter().zip(&before).map(|(a, b)| a.distance(*b));

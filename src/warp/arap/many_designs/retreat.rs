@@ -1,20 +1,22 @@
-//! A blend that stays folded is shown as the nearest one that is not, on the way to the design
-//! with the most weight: there no face is folded, as a family has none that are.
+//! Replaces a blend that stays folded by the nearest blend without folds on the way to the design
+//! with the largest weight.
 //!
-//! Guaranteed: where it ends nothing is folded. Not guaranteed: that it goes smoothly with the
-//! weights, and which of two designs with as much weight it goes to where both are as near.
+//! Guaranteed: the result has no folded face, because the designs have none. Not guaranteed: that
+//! the result depends continuously on the weights; if two designs with equal weight are equally
+//! near, the first one is chosen.
 
 use super::BlendPlacer;
 
-/// Halvings of the way to a design: to a thousandth of it.
+/// Number of bisections of the way to a design (derived: accurate to 2⁻¹⁰, about a thousandth of
+/// the way).
 const HALVINGS: usize = 10;
 
-/// Weights of two designs that differ by no more than this are one.
+/// Weights that differ by at most this count as equal (tolerance: above rounding).
 const TIED: f64 = 1e-9;
 
 impl BlendPlacer {
-    /// Goes from a folded blend towards the design with the most weight, which has no fold,
-    /// just so far that there is none; of several such designs the shortest way.
+    /// Moves a folded blend towards the design with the largest weight, just far enough that no
+    /// face is folded. If several designs have the largest weight, the nearest result is chosen.
     pub(super) fn retreat(&mut self, weights: &[f64]) {
         let most = weights.iter().copied().fold(0.0, f64::max);
         let (mut shortest, mut to) = (f64::INFINITY, 0);
@@ -38,8 +40,8 @@ impl BlendPlacer {
         self.solve_towards(weights, to, shortest);
     }
 
-    /// Places the blend that lies so far on the way to a design, and says whether none of its
-    /// faces is folded.
+    /// Places the blend at the fraction `way` of the way to a design. Returns whether no face is
+    /// folded.
     fn solve_towards(&mut self, weights: &[f64], design: usize, way: f64) -> bool {
         let mut towards = std::mem::take(&mut self.towards);
         for (own, weight) in towards.iter_mut().zip(weights) {

@@ -1,10 +1,12 @@
+//! Tests blends of many designs with bent strips.
+
 use super::*;
 use crate::compatible::CompatibleMesh;
 use crate::warp::{Arap, Warp};
 use crate::work::progress::Silent;
 use proptest::prelude::*;
 
-/// A strip of two rows, bent and stretched, and turned as a whole.
+/// A strip of one row of squares, bent by `by`, stretched, and rotated by `turn` radians.
 fn bent(by: f64, stretch: f64, turn: f64) -> Vec<DVec2> {
     let place = |i: u32| {
         let (x, y) = (f64::from(i / 2), f64::from(i % 2));
@@ -79,7 +81,7 @@ fn a_rigid_design_moves_rigidly() {
 
 #[test]
 fn parts_are_carried_about_the_whole() {
-    // Two strips apart from each other, turned by half a turn as a whole.
+    // Two strips apart from each other, rotated together by `turn` radians.
     let two = |turn: f64| -> Vec<DVec2> {
         let strip = bent(0.0, 1.0, 0.0);
         let other = strip.iter().map(|&p| p + DVec2::Y * 20.0);
@@ -98,7 +100,7 @@ fn parts_are_carried_about_the_whole() {
 
 #[test]
 fn from_a_fold_it_goes_towards_the_nearest_design_until_there_is_none() {
-    // Far beyond the designs, where nothing makes enough room.
+    // Far outside the designs, where folds cannot be avoided.
     let family = family(&THREE);
     let blend = ArapBlend::build(&family, &Silent).expect("a blend");
     let mut placer = blend.placer();
