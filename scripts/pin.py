@@ -11,11 +11,13 @@ Three kinds of lines, each `kind name sha256`:
 - `frames`: every project of the gallery and neighbouring pairs of `tests/drawings`, in
   every cell of the table of methods, at nine values of t (SVG; PNG for pictures)
 - `match`: the cached match (`[found]`) of every pair in DATA/*.csv and
-  DATA/trusses/pairs.csv; a pair that is refused counts as refused
+  DATA/trusses/pairs.csv
 - `check`: the numbers of `check --json` for the projects and drawings, without times
   and without sentences
 
-The last line hashes all the others. Needs a build with the feature `cli` only.
+Input that the program refuses (exit status 1) is `refused-1` instead of a hash. The last
+line hashes all the others. Exits with 1 if a run of the program ended in any other way,
+such as a panic or a timeout. Needs a build with the feature `cli` only.
 """
 
 import argparse
@@ -36,13 +38,30 @@ WARPS = ["none", "paths", "arap", "lines", "scattered", "lattice"]
 CONTENTS = ["solid", "field", "colours"]
 
 
+KINDS = ["frames", "check", "match"]
+SUCCESS = 0
+REFUSED = 1
+TIMEOUT_S = 600
+
+
 def sha(data):
     return hashlib.sha256(data).hexdigest()[:16]
 
 
+class Failed(Exception):
+    """The program did not exit with 0 or 1."""
+
+
 def run(binary, *arguments):
+    """Standard output, or None where the program refuses the input."""
     command = [binary, *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, timeout=600)
+    try:
+        result = subprocess.run(command, capture_output=True, timeout=TIMEOUT_S)
+    except subprocess.TimeoutExpired:
+        raise Failed(f"timeout after {TIMEOUT_S} s") from None
+    if result.returncode not in (SUCCESS, REFUSED):
+        raise Failed(f"status {result.returncode}: {result.stderr.decode(errors='replace')[-200:]}")
+    return None if result.returncode == REFUSED else result.stdout
 
 
 def inputs():
@@ -54,29 +73,25 @@ def inputs():
         yield f"{source.stem}-{target.stem}", [source, target]
 
 
-def frames(binary, name, designs, warp, content):
+def frames(binary, designs, warp, content):
     kind = "png" if content == "colours" else "svg"
     with tempfile.TemporaryDirectory() as folder:
-        result = run(
+        output = run(
             binary, "render", *designs, "--warp", warp, "--content", content,
             "--at", MOMENTS, "--out", f"{folder}/f-##.{kind}",
         )
         files = sorted(pathlib.Path(folder).iterdir())
-        data = b"\0".join(path.read_bytes() for path in files)
-    outcome = sha(data) if result.returncode == 0 else f"refused-{result.returncode}"
-    return f"frames {name}/{warp}/{content} {outcome}"
+        return None if output is None else b"\0".join(path.read_bytes() for path in files)
 
 
 def match(binary, folder, row):
-    name = f"{row['source']} {row['target']}"
     paths = [row[side] if ":" in row[side] else folder / row[side] for side in ("source", "target")]
     with tempfile.TemporaryDirectory() as out:
         project = pathlib.Path(out) / "x.morph"
-        result = run(binary, "new", *paths, "--film", "--out", project)
-        if result.returncode:
-            return f"match {name} refused-{result.returncode}"
+        if run(binary, "new", *paths, "--film", "--out", project) is None:
+            return None
         found = tomllib.loads(project.read_text()).get("found", {})
-    return f"match {name} {sha(json.dumps(found, sort_keys=True).encode())}"
+    return json.dumps(found, sort_keys=True).encode()
 
 
 def numbers(value):
@@ -89,44 +104,57 @@ def numbers(value):
     return None if isinstance(value, str) and " " in value else value
 
 
-def check(binary, name, designs):
-    result = run(binary, "check", *designs, "--json")
-    if result.returncode:
-        return f"check {name} refused-{result.returncode}"
-    report = json.dumps(numbers(json.loads(result.stdout)), sort_keys=True)
-    return f"check {name} {sha(report.encode())}"
+def check(binary, designs):
+    output = run(binary, "check", *designs, "--json")
+    return None if output is None else json.dumps(numbers(json.loads(output)), sort_keys=True).encode()
 
 
 def jobs(binary, data, kinds):
+    """The name of each line with the function that computes its data, and arguments."""
     if "frames" in kinds:
         for name, designs in inputs():
             for warp in WARPS:
                 for content in CONTENTS:
-                    yield frames, binary, name, designs, warp, content
+                    yield f"frames {name}/{warp}/{content}", frames, binary, designs, warp, content
     if "check" in kinds:
         for name, designs in inputs():
-            yield check, binary, name, designs
+            yield f"check {name}", check, binary, designs
     if "match" in kinds:
-        lists = [*sorted(data.glob("*.csv")), data / "trusses/pairs.csv"]
-        for path in lists:
+        for path in [*sorted(data.glob("*.csv")), data / "trusses/pairs.csv"]:
             for row in csv.DictReader(path.read_text().splitlines()):
-                yield match, binary, path.parent, row
+                yield f"match {row['source']} {row['target']}", match, binary, path.parent, row
+
+
+def outcome(job):
+    _, compute, *arguments = job
+    try:
+        data = compute(*arguments)
+    except Failed as error:
+        return f"failed: {error}"
+    return f"refused-{REFUSED}" if data is None else sha(data)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("binary", type=pathlib.Path)
     parser.add_argument("data", type=pathlib.Path)
-    parser.add_argument("--kinds", default="frames,check,match")
+    parser.add_argument("--kinds", default=",".join(KINDS))
     options = parser.parse_args()
-    binary = options.binary.resolve()
-    todo = list(jobs(binary, options.data.resolve(), options.kinds.split(",")))
+    kinds = options.kinds.split(",")
+    if not set(kinds) <= set(KINDS):
+        parser.error(f"--kinds takes a list of {', '.join(KINDS)}")
+    todo = list(jobs(options.binary.resolve(), options.data.resolve(), kinds))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        lines = list(pool.map(lambda job: job[0](*job[1:]), todo))
+        outcomes = list(pool.map(outcome, todo))
+    lines = [f"{job[0]} {result}" for job, result in zip(todo, outcomes)]
     for line in lines:
         print(line)
-    print("all", len(lines), sha("\n".join(lines).encode()), file=sys.stdout)
+    print("all", len(lines), sha("\n".join(lines).encode()))
+    refused = outcomes.count(f"refused-{REFUSED}")
+    failed = sum(result.startswith("failed") for result in outcomes)
+    print(f"{len(lines) - refused - failed} hashes, {refused} refused, {failed} failed", file=sys.stderr)
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

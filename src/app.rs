@@ -14,7 +14,7 @@
 //! | `playback`, `presentation` | the blend parameter t and its change over time; talks and the
 //! speaker's window |
 //! | `view`, `stage_area`, `stage_sync` | pan and zoom, filmstrip; what the stage shows |
-//! | `escape` | what Esc closes or cancels, full screen |
+//! | `escape`, `open_questions`, `tool_views` | what Esc closes or cancels, full screen |
 //! | `redraw_pace` | how often the window redraws |
 //! | `screen_fit` | size of the window on small screens |
 //! | `map` | the map on which the designs are placed, its thumbnails and contours |
@@ -38,6 +38,7 @@ mod logic;
 mod map;
 mod no_window;
 mod notices;
+mod open_questions;
 mod output_files;
 mod persistence;
 mod playback;
@@ -47,6 +48,7 @@ mod screen_fit;
 mod session;
 mod stage_area;
 mod stage_sync;
+mod tool_views;
 mod ui;
 mod unsaved_question;
 mod view;

@@ -2,8 +2,8 @@
 //!
 //! A [`Paint`] is interpolated in OKLab (Ottosson 2020), a colour space in which equal distances
 //! look equal. Its colour is multiplied by its opacity first, so a paint that fades in from full
-//! transparency keeps its own colour. The colour of a design that has no paints of its own is
-//! interpolated in linear light instead ([`Rgb::mixed`]).
+//! transparency keeps its own colour. The colour of a design without paints is interpolated in
+//! linear light instead ([`Rgb::mixed`]).
 
 mod gradient;
 

@@ -226,7 +226,7 @@ impl Cholesky {
             &mut self.values,
             lower.as_ref(),
             Side::Lower,
-            // No regularisation: the caller gets the error and may stiffen the matrix.
+            // Regularisation is off: the caller gets the error and may stiffen the matrix.
             LltRegularization::default(),
             Par::Seq,
             MemStack::new(&mut memory),

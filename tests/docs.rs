@@ -5,8 +5,7 @@
 //! `UPDATE_DOCS=1 cargo test --test docs` updates the generated lists.
 #![expect(clippy::print_stdout, reason = "a command that is not run is reported")]
 
-#[path = "source/files.rs"]
-mod files;
+mod source;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -15,32 +14,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use morphospace::project::Project;
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn read(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-/// Paths of the README and of every Markdown page below `docs`.
-fn pages() -> Vec<PathBuf> {
-    let mut pages = vec![root().join("README.md")];
-    let mut folders = vec![root().join("docs")];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("docs").flatten() {
-            let path = entry.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "md") {
-                pages.push(path);
-            }
-        }
-    }
-    pages.sort();
-    pages
-}
+use source::production::ProductionCode;
+use source::{lines_outside_code, pages, read, root, rust_files, source_folder};
 
 /// Language and text of each fenced code block of a page.
 fn blocks(text: &str) -> Vec<(&str, String)> {
@@ -113,9 +88,34 @@ fn fill_with_examples(folder: &Path) {
     }
 }
 
+/// Output of `morphospace` with the given arguments.
+fn help(arguments: &[&str]) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_morphospace"));
+    let output = command
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    assert!(output.status.success(), "{arguments:?}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// Names of the subcommands except `help`, from the list in `morphospace --help`.
+fn subcommands() -> Vec<String> {
+    let help = help(&["--help"]);
+    let (_, list) = help.split_once("Commands:\n").expect("a list of commands");
+    let lines = list.lines().take_while(|line| !line.is_empty());
+    let names = lines.filter_map(|line| line.split_whitespace().next());
+    let names: Vec<String> = names
+        .filter(|name| *name != "help")
+        .map(str::to_owned)
+        .collect();
+    assert!(!names.is_empty(), "no commands:\n{help}");
+    names
+}
+
 /// Arguments of each `morphospace` command with a subcommand in a block; lines continued with `\`
 /// are joined.
-fn command_lines(block: &str) -> Vec<Vec<String>> {
+fn command_lines(block: &str, subcommands: &[String]) -> Vec<Vec<String>> {
     let joined = block.replace("\\\n", " ");
     let lines = joined.lines().filter_map(|line| {
         let line = line.split(" # ").next().unwrap_or(line);
@@ -123,9 +123,8 @@ fn command_lines(block: &str) -> Vec<Vec<String>> {
             .split_whitespace()
             .map(|word| word.trim_matches('\'').to_owned())
             .collect();
-        let subcommands = ["render", "check", "new", "catalogue", "gallery"];
         let (program, rest) = words.split_first()?;
-        let runs = program == "morphospace" && subcommands.contains(&rest.first()?.as_str());
+        let runs = program == "morphospace" && subcommands.contains(rest.first()?);
         runs.then(|| rest.to_vec())
     });
     lines.collect()
@@ -139,6 +138,7 @@ fn has_ffmpeg() -> bool {
 
 #[test]
 fn every_command_line_runs() {
+    let subcommands = subcommands();
     let mut count = 0;
     for page in pages() {
         for (_, block) in blocks(&read(&page))
@@ -147,7 +147,7 @@ fn every_command_line_runs() {
         {
             let folder = tempfile::tempdir().expect("a folder");
             fill_with_examples(folder.path());
-            for arguments in command_lines(block) {
+            for arguments in command_lines(block, &subcommands) {
                 if arguments.iter().any(|word| word.ends_with(".mp4")) && !has_ffmpeg() {
                     println!("not run, since ffmpeg is not installed: {arguments:?}");
                     continue;
@@ -165,31 +165,26 @@ fn every_command_line_runs() {
     assert!(count > 15, "only {count} command lines were found");
 }
 
-/// Targets of the Markdown links of a page that lie outside code blocks.
+/// Targets of the Markdown links of a page that are outside code blocks.
 fn links(text: &str) -> Vec<String> {
-    let mut in_code = false;
-    let mut links = Vec::new();
-    for line in text.lines() {
-        in_code ^= line.starts_with("```");
-        if !in_code {
-            let after_text = line.split("](").skip(1);
-            links.extend(after_text.filter_map(|rest| Some(rest.split_once(')')?.0.to_owned())));
-        }
-    }
-    links
+    let links = lines_outside_code(text).flat_map(|line| {
+        let after_text = line.split("](").skip(1);
+        after_text.filter_map(|rest| Some(rest.split_once(')')?.0.to_owned()))
+    });
+    links.collect()
 }
 
 /// Anchors of the headings of a page, as GitHub and mdBook derive them.
 fn anchors(text: &str) -> Vec<String> {
-    let headings = text.lines().filter(|line| line.starts_with('#'));
+    let headings = lines_outside_code(text).filter(|line| line.starts_with('#'));
     let anchor = |line: &str| -> String {
         let title = line.trim_start_matches('#').trim().to_lowercase();
-        let kept = title.chars().filter_map(|c| match c {
+        let characters = title.chars().filter_map(|c| match c {
             ' ' => Some('-'),
             c if c.is_alphanumeric() || c == '-' || c == '_' => Some(c),
             _ => None,
         });
-        kept.collect()
+        characters.collect()
     };
     headings.map(anchor).collect()
 }
@@ -250,43 +245,83 @@ fn every_project_file_in_the_docs_parses() {
     assert!(count > 3, "only {count} project files were found");
 }
 
-/// Returns the keys that a project file may have in a table, read from the error message for an
-/// unknown key.
-fn known_keys(table: &str) -> Vec<String> {
-    let text = format!(
-        "version = 2\n\n{table}no-such-key = 1\n\n[[designs]]\npath = \"a\"\n\n[[designs]]\npath = \"b\"\n"
-    );
-    let error = Project::parse(&text).expect_err("a key that does not exist");
-    let message = error.to_string();
+/// A key that no table of a project file has.
+const UNKNOWN_KEY: &str = "no-such-key = 1";
+
+/// Returns the keys that a project file may have at the place of [`UNKNOWN_KEY`] in `text`, read
+/// from the error message for the unknown key.
+fn known_keys(text: &str) -> Vec<String> {
+    let error = Project::parse(text)
+        .expect_err("a key that does not exist")
+        .to_string();
     // The message is like "unknown field `no-such-key`, expected one of `a`, `b`".
-    let (_, keys) = message.split_once("expected").unwrap_or(("", ""));
-    let keys = keys.split('`').skip(1).step_by(2);
-    keys.map(str::to_owned).collect()
+    let (_, keys) = error.split_once("expected").unwrap_or(("", ""));
+    let keys: Vec<String> = keys
+        .split('`')
+        .skip(1)
+        .step_by(2)
+        .map(str::to_owned)
+        .collect();
+    assert!(!keys.is_empty(), "no list of keys: {error}\n{text}");
+    keys
+}
+
+/// All words in code spans of a Markdown text, such as `import` and `invert` of `` `import.invert` ``.
+fn code_words(text: &str) -> Vec<&str> {
+    let spans = text.split('`').skip(1).step_by(2);
+    let is_separator = |c: char| !c.is_alphanumeric() && c != '-';
+    spans.flat_map(|span| span.split(is_separator)).collect()
+}
+
+/// The part of a page from a heading of the second level to the next one.
+fn section<'a>(page: &'a str, heading: &str) -> &'a str {
+    let (_, rest) = page
+        .split_once(&format!("\n## {heading}\n"))
+        .unwrap_or_else(|| panic!("no section {heading}"));
+    rest.split("\n## ").next().unwrap_or(rest)
 }
 
 #[test]
 fn the_reference_of_project_files_names_every_key() {
     let page = read(&root().join("docs/reference/project-file.md"));
+    // The section for each table. An inner table is written as a value.
     let tables = [
-        "[timing]\n",
-        "[[stops]]\n",
-        "[match]\n",
-        "[arap]\n",
-        "[field]\n",
-        "[map]\n",
-        "[style]\n",
+        ("[match]", "Match"),
+        ("[triangulation]", "Match"),
+        ("[arap]", "Rigid parts"),
+        ("[paths]", "Boundary paths"),
+        ("[field]", "Distance fields"),
+        ("[field.blend]", "Distance fields"),
+        ("[lines]", "Warps of the plane"),
+        ("[scattered]", "Warps of the plane"),
+        ("[lattice]", "Warps of the plane"),
+        ("[colours]", "Pictures"),
+        ("[coats]", "Paint"),
+        ("[style]", "Paint"),
+        ("[timing]", "Timing and stops"),
+        ("[[stops]]", "Timing and stops"),
+        ("[[parts]]", "Timing and stops"),
+        ("[[legs]]", "Many designs"),
+        ("[map]", "Map"),
+        ("[map.path]", "Map"),
+        ("[[map.kept]]", "Map"),
+        ("[[designs]]", "Designs"),
+        ("[[designs]]\n[designs.import]", "Designs"),
+        ("[[designs]]\n[designs.placement]", "Designs"),
     ];
-    for table in tables {
-        for key in known_keys(table) {
-            let forms = [
-                format!("`{key}`"),
-                format!("`{key}."),
-                format!(".{key}`"),
-                format!(".{key}]"),
-            ];
-            let is_named = forms.iter().any(|form| page.contains(form));
-            assert!(is_named, "project-file.md does not name `{key}` of {table}");
+    for (table, heading) in tables {
+        let words = code_words(section(&page, heading));
+        for key in known_keys(&format!("version = 2\n\n{table}\n{UNKNOWN_KEY}\n")) {
+            let is_named = words.contains(&key.as_str());
+            assert!(is_named, "\"{heading}\" does not name `{key}` of {table}");
         }
+    }
+    let words = code_words(&page);
+    for key in known_keys(&format!("version = 2\n{UNKNOWN_KEY}\n")) {
+        assert!(
+            words.contains(&key.as_str()),
+            "project-file.md does not name `{key}`"
+        );
     }
 }
 
@@ -316,10 +351,8 @@ fn check_generated(page: &Path, name: &str, expected: &str) {
 #[test]
 fn the_options_of_the_command_line_are_listed() {
     let page = root().join("docs/reference/command-line.md");
-    for subcommand in ["render", "check", "new", "catalogue", "gallery"] {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_morphospace"));
-        let output = command.args([subcommand, "--help"]).output();
-        let help = String::from_utf8(output.expect("help").stdout).expect("text");
+    for subcommand in subcommands() {
+        let help = help(&[&subcommand, "--help"]);
         let lines: Vec<&str> = help.lines().map(str::trim_end).collect();
         let block = format!("```text\n{}\n```\n", lines.join("\n").trim_end());
         check_generated(&page, &format!("help {subcommand}"), &block);
@@ -330,38 +363,16 @@ fn the_options_of_the_command_line_are_listed() {
 /// described by two texts: its file and name, and its documentation up to the mark.
 fn heuristics() -> BTreeMap<String, Vec<[String; 2]>> {
     let mut by_folder: BTreeMap<String, Vec<[String; 2]>> = BTreeMap::new();
-    for file in files::files_below(&files::folder()) {
-        let text = read(&file);
-        let lines: Vec<&str> = text.lines().map(str::trim).collect();
-        for (k, line) in lines.iter().enumerate() {
-            let item = line.trim_start_matches("pub").trim_start();
-            let item = item
-                .strip_prefix("(crate)")
-                .or(item.strip_prefix("(super)"));
-            let item = item.unwrap_or(line.trim_start_matches("pub")).trim_start();
-            let Some(rest) = item.strip_prefix("const ") else {
-                continue;
-            };
-            let docs: Vec<&str> = lines[..k]
-                .iter()
-                .rev()
-                .take_while(|line| line.starts_with("///"))
-                .map(|line| line.trim_start_matches("///").trim())
-                .collect();
-            let sentence = docs.into_iter().rev().collect::<Vec<_>>().join(" ");
-            let Some(at) = sentence.find("(heuristic") else {
-                continue;
-            };
-            let inside = file.strip_prefix(files::folder()).expect("a source file");
-            let mut parts = inside.components();
-            let top = parts.next().expect("a name").as_os_str().to_string_lossy();
-            let folder = top.trim_end_matches(".rs").to_owned();
-            let name = rest.split(':').next().unwrap_or(rest);
-            let entry = format!("`{}` `{name}`", inside.display());
-            by_folder
-                .entry(folder)
-                .or_default()
-                .push([entry, sentence[..at].trim().to_owned()]);
+    for file in rust_files() {
+        let inside = file.strip_prefix(source_folder()).expect("a source file");
+        let top = inside.iter().next().expect("a name").to_string_lossy();
+        let folder = top.trim_end_matches(".rs").to_owned();
+        for constant in ProductionCode::read(&file).constants {
+            if let Some((meaning, _)) = constant.docs.split_once("(heuristic") {
+                let entry = format!("`{}` `{}`", inside.display(), constant.name);
+                let constants = by_folder.entry(folder.clone()).or_default();
+                constants.push([entry, meaning.trim().to_owned()]);
+            }
         }
     }
     by_folder

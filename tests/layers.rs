@@ -2,22 +2,16 @@
 //! module is listed once and uses only modules above it in the list. Also tests that no files use
 //! each other in a cycle (`budget.rs` tests this for folders).
 
-#[path = "source/uses.rs"]
-mod uses;
+mod source;
 
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use uses::{Crate, Names, Uses};
-
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
-}
+use source::uses::{Crate, Names, reachable};
+use source::{read, source_folder};
 
 /// Names of the modules in the list of layers in `lib.rs`, from the top.
 fn layers() -> Names {
-    let text = fs::read_to_string(folder().join("lib.rs")).expect("lib.rs");
+    let text = read(&source_folder().join("lib.rs"));
     let (_, text) = text.split_once("//! # Layers").expect("a list of layers");
     let (_, text) = text.split_once("```text\n").expect("its beginning");
     let (text, _) = text.split_once("//! ```").expect("its end");
@@ -33,7 +27,9 @@ fn layers() -> Names {
 
 /// Name of the top-level module that contains a file; `None` for `lib.rs`.
 fn top_module(file: &Path) -> Option<String> {
-    let inside = file.strip_prefix(folder()).expect("a file of the crate");
+    let inside = file
+        .strip_prefix(source_folder())
+        .expect("a file of the crate");
     let first = inside.components().next()?.as_os_str();
     let name = Path::new(first).with_extension("");
     Some(name.to_string_lossy().into_owned()).filter(|name| name != "lib")
@@ -43,14 +39,14 @@ fn top_module(file: &Path) -> Option<String> {
 fn every_module_is_in_the_list_once() {
     let mut layers = layers();
     layers.sort();
-    let parsed = Crate::read(&folder());
+    let parsed = Crate::read(&source_folder());
     let top = parsed.0.keys().filter(|path| path.len() == 1);
     assert_eq!(layers, top.map(|path| path[0].clone()).collect::<Names>());
 }
 
 #[test]
 fn modules_use_only_modules_above_them() {
-    let parsed = Crate::read(&folder());
+    let parsed = Crate::read(&source_folder());
     let layers = layers();
     let height = |name: &String| layers.iter().position(|layer| layer == name);
     let mut downward = Vec::new();
@@ -71,26 +67,15 @@ fn modules_use_only_modules_above_them() {
     );
 }
 
-/// All files that `from` uses, directly or through other files.
-fn reachable<'a>(uses: &Uses<'a>, from: &'a Path) -> BTreeSet<&'a Path> {
-    let mut reached = BTreeSet::new();
-    let mut open = vec![from];
-    while let Some(file) = open.pop() {
-        let next = uses.get(file).into_iter().flat_map(|used| used.keys());
-        open.extend(next.filter(|file| reached.insert(**file)));
-    }
-    reached
-}
-
 /// Path of a file relative to `src`.
 fn short(file: &Path) -> String {
-    let inside = file.strip_prefix(folder()).unwrap_or(file);
+    let inside = file.strip_prefix(source_folder()).unwrap_or(file);
     inside.display().to_string()
 }
 
 #[test]
 fn no_files_use_each_other_in_a_cycle() {
-    let parsed = Crate::read(&folder());
+    let parsed = Crate::read(&source_folder());
     let uses = parsed.uses();
     let mut cyclic = Vec::new();
     for (from, to) in &uses {

@@ -8,15 +8,16 @@ use crate::app::capture::film_exporter::FilmExporter;
 use crate::app::files::invitation::Invitation;
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
-use crate::app::key_input::OpenQuestions;
-use crate::app::presentation::presenter::{Presentation, ToolViews, fullscreen_mode};
+use crate::app::open_questions::OpenQuestions;
+use crate::app::presentation::presenter::{Presentation, fullscreen_mode};
 use crate::app::session::state::Session;
+use crate::app::tool_views::ToolViews;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::window::{PrimaryWindow, WindowMode};
 
 /// Switches the main window between full screen and windowed mode.
-pub fn window_mode(
+pub fn toggle_fullscreen(
     mut intents: MessageReader<Intent>,
     mut window: Single<&mut Window, With<PrimaryWindow>>,
 ) {
@@ -83,8 +84,8 @@ pub fn handle_escape(
     for _ in 0..escape_count {
         if preferences.help {
             preferences.help = false;
-        } else if preferences.panels && !views.is_any_open() && invitation.close() {
-            // The condition above has already closed the invitation.
+        } else if preferences.panels && !views.is_any_open() && invitation.is_shown() {
+            invitation.close();
         } else if preferences.panels && work.session.visible_work().is_some() {
             work.session.cancel();
         } else if preferences.panels && work.search.visible_progress().is_some() {
@@ -99,8 +100,8 @@ pub fn handle_escape(
             preferences.film_options = false;
         } else if views.map.is_shown {
             views.map.is_shown = false;
-        } else if std::mem::take(&mut views.comparison.is_shown) {
-            // The condition above has already closed the comparison.
+        } else if views.comparison.is_shown {
+            views.comparison.is_shown = false;
         } else if !preferences.panels {
             preferences.panels = true;
         } else if let Ok(mut window) = window.single_mut()

@@ -5,32 +5,12 @@ use bevy::input::keyboard::{KeyboardFocusLost, KeyboardInput};
 use bevy::prelude::{Local, MessageReader, MessageWriter, Res};
 
 use crate::app::editing::editor::MatchEditor;
-use crate::app::files::drop::DroppedDesign;
 use crate::app::input::gesture::KeyboardFocus;
 use crate::app::input::intent::Intent;
 use crate::app::input::key_map::{KeyMap, KeyModifiers};
 use crate::app::map::map_view::MapView;
-use crate::app::persistence::autosave::Autosave;
+use crate::app::open_questions::OpenQuestions;
 use crate::app::presentation::presenter::Presentation;
-use crate::app::unsaved_question::UnsavedQuestion;
-
-/// Questions that the window may be asking the user.
-#[derive(SystemParam)]
-pub struct OpenQuestions<'w> {
-    unsaved: Res<'w, UnsavedQuestion>,
-    drop: Res<'w, DroppedDesign>,
-    autosave: Res<'w, Autosave>,
-}
-
-impl OpenQuestions<'_> {
-    /// Whether a question waits for an answer.
-    #[must_use]
-    pub fn any(&self) -> bool {
-        self.unsaved.text().is_some()
-            || self.drop.is_pending()
-            || self.autosave.recoverable().is_some()
-    }
-}
 
 /// Modes of the window that change the effect of a key.
 #[derive(SystemParam)]

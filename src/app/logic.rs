@@ -174,7 +174,7 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
         stage_camera::apply,
         file_watcher::follow,
         onion_skins::follow,
-        // After every system that changes the project or marks it as saved.
+        // These systems run after every system that changes the project or marks it as saved.
         (autosave::follow, recent_files::follow).chain(),
         notices::apply,
     )

@@ -64,7 +64,8 @@ fn first_free<T>(
     };
     std::fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
     let stem = safe_file_name(stem);
-    // Created without checking first: two processes that check could both find the same name free.
+    // The file is created without a check first: two processes that check could both find the same
+    // name free.
     for number in 1u32.. {
         let name = if number == 1 {
             format!("{stem}{suffix}")

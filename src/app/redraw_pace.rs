@@ -277,8 +277,8 @@ pub fn set_redraw_pace(
         frame: *state.frame,
     };
     let mode = pace.update_mode();
-    // The same mode with and without focus, so that the film goes on while another window is used.
-    // Compared first, to avoid needless change events.
+    // The mode is the same with and without focus, so that the film continues while another window
+    // is used. It is compared first, because writing it reports a change.
     if (settings.focused_mode, settings.unfocused_mode) != (mode, mode) {
         (settings.focused_mode, settings.unfocused_mode) = (mode, mode);
     }

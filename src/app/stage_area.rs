@@ -1,6 +1,9 @@
 //! The area of the window that shows the stage, and whether the view stays fitted to it.
 
-use bevy::prelude::{Resource, Vec2};
+use bevy::prelude::{Resource, UVec2, Vec2};
+
+/// Size of the window when it opens, in points.
+pub const INITIAL_SIZE: UVec2 = UVec2::new(1280, 720);
 
 /// Area of the window that the panels leave free for the stage, in logical pixels.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
@@ -15,7 +18,7 @@ impl Default for StageArea {
     fn default() -> Self {
         Self {
             corner: Vec2::ZERO,
-            size: Vec2::new(1280.0, 720.0),
+            size: INITIAL_SIZE.as_vec2(),
         }
     }
 }

@@ -105,7 +105,7 @@ pub fn stage_t(
 /// Makes the segment that contains the playback's t the current one.
 pub fn select_segment(playback: Res<Playback>, mut session: ResMut<Session>) {
     let segment = session.segment_at(playback.t());
-    // Compared first, because writing marks the session as changed.
+    // The segment is compared first, because writing it marks the session as changed.
     if segment != session.segment() {
         session.select_segment(segment);
     }

@@ -8,7 +8,7 @@ use bevy::camera::visibility::{RenderLayers, VisibilitySystems};
 use bevy::camera::{CameraOutputMode, CompositingSpace};
 use bevy::prelude::*;
 use bevy::render::render_resource::BlendState;
-use bevy::window::{ExitCondition, WindowMode, WindowResolution};
+use bevy::window::{ExitCondition, WindowMode, WindowResizeConstraints};
 use bevy::winit::{EventLoopProxyWrapper, WinitUserEvent};
 use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 
@@ -30,6 +30,8 @@ use crate::app::persistence::gallery_strips::GalleryStripCache;
 use crate::app::persistence::recent_files::{RecentFiles, StoredRecentFiles};
 use crate::app::presentation::presenter::fullscreen_mode;
 use crate::app::presentation::speaker_window;
+use crate::app::screen_fit::MIN_SIZE;
+use crate::app::stage_area::INITIAL_SIZE;
 use crate::app::ui::draw::UiPlugin;
 use crate::app::view::{filmstrip, stage_camera};
 use crate::app::{redraw_pace, screen_fit, stage_sync};
@@ -165,8 +167,13 @@ fn window(starts_talk: bool) -> WindowPlugin {
             } else {
                 WindowMode::Windowed
             },
-            // In points; `fit_to_screen` makes it smaller on a small screen and sets the minimum.
-            resolution: WindowResolution::new(1280, 720),
+            // In points; `fit_to_screen` makes both smaller on a small screen.
+            resolution: INITIAL_SIZE.into(),
+            resize_constraints: WindowResizeConstraints {
+                min_width: MIN_SIZE.x,
+                min_height: MIN_SIZE.y,
+                ..default()
+            },
             ..default()
         }),
         exit_condition: ExitCondition::OnPrimaryClosed,
@@ -198,7 +205,7 @@ impl Plugin for WindowPlugins {
             .add_systems(
                 Update,
                 (
-                    escape::window_mode,
+                    escape::toggle_fullscreen,
                     (stage_camera::fit, stage_camera::place_camera).chain(),
                     (speaker_window::apply, speaker_window::follow).chain(),
                     (gallery_thumbnails::advance, filmstrip::follow),

@@ -1,4 +1,5 @@
-//! `morphospace catalogue`: writes the saved blends of a map as files.
+//! `morphospace catalogue`: writes each saved blend of a map as SVG and DXF, all of them on an
+//! overview sheet, and a table of their measures.
 
 use std::path::PathBuf;
 

@@ -27,7 +27,7 @@ pub(super) struct CheckArgs {
     batch: Option<PairBatchArgs>,
 
     /// Measure blends of all designs instead of each segment: their common mesh, the blends of each
-    /// two designs, the blend of all in equal parts, and 200 blends spread over all weights
+    /// pair of designs, the blend with equal weights, and 200 blends spread over all weights
     #[arg(long, conflicts_with = "pairs")]
     map: bool,
 

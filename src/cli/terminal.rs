@@ -57,7 +57,7 @@ impl Terminal {
             return;
         };
         if *current_line != line {
-            // A failed write is ignored: the work goes on even if the terminal no longer exists.
+            // A failed write is ignored: the work continues even if the terminal no longer exists.
             write!(io::stderr().lock(), "\r\x1b[K{line}").unwrap_or_default();
             *current_line = line;
         }

@@ -18,7 +18,7 @@ pub struct Gradient {
     /// Stops in ascending order of offset. Two stops with the same offset form a hard edge, at
     /// which the paint jumps.
     pub stops: Vec<GradientStop>,
-    /// How the gradient continues beyond the offsets 0 and 1.
+    /// Continuation of the gradient beyond the offsets 0 and 1.
     pub spread: GradientSpread,
 }
 
@@ -46,7 +46,7 @@ pub struct GradientStop {
     pub paint: Paint,
 }
 
-/// How a gradient continues beyond the offsets 0 and 1.
+/// Continuation of a gradient beyond the offsets 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GradientSpread {

@@ -15,7 +15,7 @@ use crate::work::progress::{Progress, ProgressShares};
 use rayon::prelude::*;
 
 /// Number of border points along the longer side of the frame (heuristic: half as many as in a mesh
-/// around pins, because the outlines contribute points of their own).
+/// around pins, because the outlines contribute further points).
 const POINTS_ALONG: f64 = 12.0;
 
 /// Reason why the frame has no mesh in which the outlines are mesh edges.

@@ -122,7 +122,8 @@ impl PicturePair {
     /// [`ColourMixError`] if the interval of the mix is invalid.
     pub fn new(source: &Picture, target: &Picture, mix: ColourMix) -> Result<Self, ColourMixError> {
         mix.check()?;
-        // Decoded in parallel, because decoding one picture takes as long as several frames.
+        // The pictures are decoded in parallel, because decoding one takes as long as several
+        // frames.
         let (source, target) =
             rayon::join(|| PictureLayer::new(source), || PictureLayer::new(target));
         Ok(Self {

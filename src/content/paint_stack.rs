@@ -43,7 +43,7 @@ pub struct InkedLayer {
 /// Paint layer: parts that have the same paint in the source and the same paint in the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedPaintLayer {
-    /// Paints in source and target; `None` if the layer has no colour of its own in that design.
+    /// Paints in source and target; `None` if the layer has no colour in that design.
     pub paints: [Option<Paint>; 2],
     /// Gradients of the layer, attached to its vertices.
     pub shading: LayerShading,
@@ -135,8 +135,8 @@ impl PlacedPaintLayer {
 }
 
 impl PaintLayerStack {
-    /// Creates a stack of a single layer without a colour of its own, for the given numbers of
-    /// boundary loops and holes.
+    /// Creates a stack of a single layer without a colour, for the given numbers of boundary loops
+    /// and holes.
     #[must_use]
     pub fn single_layer(loops: usize, holes: usize) -> Self {
         Self {

@@ -19,7 +19,7 @@ pub struct SolidContent {
     pub loops: Vec<Vec<u32>>,
     /// Bars, as pairs of vertex indices; empty for a mesh.
     pub bars: Vec<[u32; 2]>,
-    /// For each bar, its paints in source and target; empty if bars have no paints of their own.
+    /// For each bar, its paints in source and target; empty if the bars have no paints.
     pub bar_paints: Vec<[Option<Paint>; 2]>,
     /// Width of all bars, in units of the designs.
     pub bar_width: f64,
@@ -77,7 +77,7 @@ struct InkKey {
 /// Group of bars with the same paints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InkedBars {
-    /// Paints in source and target; `None` if the bars have no paint of their own.
+    /// Paints in source and target; `None` if the bars have no paint.
     pub paints: [Option<Paint>; 2],
     /// Indices of the bars in the group.
     pub bars: Vec<usize>,
@@ -86,7 +86,7 @@ pub struct InkedBars {
 impl InkedBars {
     /// Groups the bars `0..count` by their paints. The groups are in the order in which their
     /// paints first occur, which is the drawing order. Bars without an entry in `paints` have no
-    /// paint of their own.
+    /// paint.
     #[must_use]
     pub fn grouped_by_paint(count: usize, paints: &[[Option<Paint>; 2]]) -> Vec<Self> {
         let mut groups: Vec<Self> = Vec::new();
@@ -368,8 +368,8 @@ impl SolidContent {
     /// boundary loop its two ends, for an edge of a hole the corners of the face on which the
     /// edge's first point lies. `None` if the edge has no such vertices.
     ///
-    /// An edge of a swelling part lies in no face. The first edge of the part's outer boundary loop
-    /// stands in for it.
+    /// An edge of a swelling part lies in no face. The vertices of the first edge of the part's
+    /// outer boundary loop are returned instead.
     pub(crate) fn face_vertices_at(
         &self,
         edge: RingEdge,

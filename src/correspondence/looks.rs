@@ -12,7 +12,7 @@ pub(crate) struct PartAppearance {
     /// Height of the part's paint layer among the design's layers: 0 for the bottom layer, 1 for
     /// the top.
     pub(crate) height: f64,
-    /// Paint of the part; `None` if the design has no colours of its own.
+    /// Paint of the part; `None` if the design has no colours.
     pub(crate) paint: Option<Paint>,
     /// Whether a line is drawn along the part, which would make a cut visible.
     pub(crate) is_lined: bool,

@@ -130,8 +130,8 @@ impl CommonParameter {
             let [p, q] = [0, 1].map(|side| curves[side].point_at(k[side]));
             (p + q).dot(SEAM_DIRECTION)
         };
-        // Prefer shared vertices, so that the seam adds no vertex of its own. The order is
-        // symmetric in the designs, so exchanging them gives exactly the same seam.
+        // Prefer shared vertices, so that the seam adds no vertex. The order is symmetric in the
+        // designs, so exchanging them gives exactly the same seam.
         let order = |a: &[f64; 2], b: &[f64; 2]| {
             let by_sharing = is_shared(b).cmp(&is_shared(a));
             by_sharing.then(projection(a).total_cmp(&projection(b)))

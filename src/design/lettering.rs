@@ -105,7 +105,7 @@ pub(super) fn read(
 
 /// Parses a font file; returns the first font of a font collection.
 fn parsed_font(bytes: &[u8]) -> Result<FontRef<'_>, TextError> {
-    // WOFF files get a message of their own, because users regard them as valid fonts.
+    // WOFF files get a separate message, because users regard them as valid fonts.
     if bytes.starts_with(b"wOF") {
         return Err(TextError::Font("it is a packed web font"));
     }

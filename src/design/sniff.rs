@@ -132,8 +132,8 @@ fn has_svg_element(bytes: &[u8]) -> bool {
             .unwrap_or(tag.len());
         tag[..end].rsplit(|&b| b == b':').next() == Some(b"svg")
     };
-    // A text search instead of parsing: comments and a DOCTYPE may come first, and a
-    // malformed drawing should be reported by the SVG importer.
+    // The text is searched instead of parsed: comments and a DOCTYPE may precede the element, and
+    // the SVG importer should report a malformed drawing.
     bytes.split(|&b| b == b'<').skip(1).any(is_svg)
 }
 

@@ -37,8 +37,7 @@ pub(super) const DRAWING_STAGE: &str = "drawing frames";
 pub struct Camera {
     /// The transitions to show.
     pub sequence: Sequence,
-    /// Fill colours of shapes without colours of their own, and whether the joints of trusses are
-    /// drawn.
+    /// Fill colours of shapes that have no paint, and whether the joints of trusses are drawn.
     pub style: TransitionStyle,
     /// Part of the plane to show, and image size.
     pub view: PlaneView,
@@ -116,7 +115,7 @@ impl Camera {
                 frame.seek(run.t);
                 make(self.draw_frame(frame))
             };
-            // A frame owns its working memory, so each thread gets a frame of its own.
+            // A frame owns its working memory, so each thread gets a separate frame.
             let frame_of_thread = || self.sequence.frame(batch[0].t);
             let results: Vec<T> = batch
                 .par_iter()

@@ -138,8 +138,7 @@ impl FilmSpec {
         self
     }
 
-    /// Returns the frames with the given numbers as a film of their own; the frames keep their
-    /// numbers.
+    /// Returns the frames with the given numbers as a separate film; the frames keep their numbers.
     ///
     /// # Errors
     /// [`FilmSpecError::FrameRange`] if the range is empty or extends beyond the film.

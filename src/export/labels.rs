@@ -91,7 +91,7 @@ pub fn text_colour_on(ground: Option<Rgb>) -> Rgb {
     match ground {
         None => grey(0x80),
         Some(Rgb([r, g, b])) => {
-            // Rec. 601 luma weights; precise enough to distinguish light from dark.
+            // The luma weights of Rec. 601 are precise enough to distinguish light from dark.
             let luma = 0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b);
             if luma > 128.0 { grey(0x20) } else { grey(0xe8) }
         }

@@ -31,8 +31,8 @@ pub fn write_numbered(
     fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
     atomic_file::remove_leftovers(&names.folder);
     let mut written = Vec::with_capacity(film.times().len());
-    // This path appears in encoding errors. They depend only on the image size, so the first frame
-    // stands for all.
+    // This path appears in encoding errors. They depend only on the image size, so the path of the
+    // first frame represents all.
     let first = names.path(film.first_number());
     camera.draw_runs(
         &film.runs(),

@@ -168,7 +168,8 @@ impl DistanceField {
         &self.values
     }
 
-    /// Values as a lattice for bilinear interpolation, in lattice coordinates of the grid.
+    /// Values as a [`SampledField`], which interpolates bilinearly. Its coordinates are the lattice
+    /// coordinates of [`Self::grid`]: the centre of cell (i, j) is at (i, j).
     #[must_use]
     pub fn samples(&self) -> SampledField<'_> {
         SampledField::of_grid(&self.grid, &self.values)

@@ -8,7 +8,7 @@ use super::{Bounds, DVec2, Ring, signed_area};
 const MAX_THICKNESS: f64 = 1e-4;
 
 /// Maximum area of a sliver, as a fraction of the area of each drawn outline near it. Contours that
-/// remain where drawn hairlines cross are larger, so they are kept (heuristic).
+/// remain where drawn hairlines cross are larger, so they are not removed (heuristic).
 const MAX_AREA_SHARE: f64 = 0.01;
 
 /// Recognises slivers among cleaned contours by comparing them with the outlines as drawn.

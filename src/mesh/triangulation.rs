@@ -3,7 +3,7 @@
 //! instead.
 //!
 //! A loop may run along a slit, there and back over the same points. Each of its corners then
-//! becomes a vertex of its own, so that the mesh opens along the slit.
+//! becomes a separate vertex, so that the mesh opens along the slit.
 //!
 //! Guaranteed: the first vertices are the loops' corners, in order. Faces are counter-clockwise and
 //! fill the piece; the boundary loops of the mesh are the given loops. Invalid input is rejected.

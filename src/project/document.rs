@@ -55,7 +55,7 @@ pub struct Project {
     /// content that suits the designs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub content: Option<ContentKind>,
-    /// How the other designs are aligned with the first.
+    /// Alignment of the other designs with the first.
     #[serde(default)]
     pub fit: DesignFit,
     /// Designs, at least two, in the order in which the film shows them.

@@ -346,7 +346,8 @@ impl LoadedProject {
         Ok(placed.collect::<Result<_, _>>()?)
     }
 
-    /// Returns the specification of the space of all designs.
+    /// Returns the specification from which [`Self::build_space`] builds the design space: all
+    /// designs of the project, placed in the common frame, with the content, warp and options.
     ///
     /// # Errors
     /// [`ProjectError`] if the method does not exist or cannot blend several designs, or if a

@@ -11,7 +11,7 @@ pub struct SegmentRecord {
     /// Match settings, in the coordinates of the two designs.
     #[serde(rename = "match", skip_serializing_if = "is_default")]
     pub matching: MatchSettings,
-    /// Time windows of the parts that have a timing of their own.
+    /// Time windows of the parts that have a separate timing.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartTime>,
     /// Match and motion as they were solved when the project was saved, to be reused on opening it.

@@ -314,8 +314,8 @@ impl Project {
             return;
         }
         let count_after = self.segment_count() as f64;
-        // If a new path replaces an old one, the stops of the film within the new length are kept.
-        // If the film starts or ceases to follow a path, all of its stops are removed.
+        // If a new path replaces an old one, the stops of the film within the new length remain. If
+        // the film starts or ceases to follow a path, all of its stops are removed.
         let keeps_stops = had_path && self.follows_path();
         self.stops
             .retain(|stop| keeps_stops && stop.t <= count_after);

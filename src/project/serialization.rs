@@ -3,7 +3,7 @@
 //! The keys at the top level belong to two structs: the project and its transition options. Serde's
 //! `flatten` would accept unknown keys and lose the line numbers of errors. Instead, each top-level
 //! key is first assigned to the struct that has a field of that name, and each struct is then read
-//! from a table of its own.
+//! from a separate table.
 
 use super::document::{FORMAT_VERSION, Project};
 use super::error::ProjectError;

@@ -177,13 +177,13 @@ impl DesignSpace {
     }
 }
 
-/// How the common mesh of the designs is obtained, and how dissimilar the designs are.
+/// Source of the common mesh of the designs, and their dissimilarities.
 struct BuiltContent {
     form: CommonForms,
     distances: DesignDistances,
 }
 
-/// How the common mesh of the designs is obtained.
+/// Source of the common mesh of the designs.
 enum CommonForms {
     /// The common mesh, or why there is none, and the bars of trusses. This variant is used for
     /// trusses, for meshes with common connectivity, and for outlines with too many points to be

@@ -120,7 +120,8 @@ fn fit_to_unit_circle(sites: &mut [DVec2]) -> f64 {
         let sites = sites.iter().copied();
         sites.max_by(|a, b| distance(a).total_cmp(&distance(b)))
     };
-    // Moves towards the farthest site by decreasing fractions (Bădoiu and Clarkson 2003).
+    // The centre moves towards the farthest site by decreasing fractions (Bădoiu and Clarkson
+    // 2003).
     let mut centre = DVec2::ZERO;
     for round in 1..=ROUNDS {
         let Some(far) = farthest(centre) else { break };

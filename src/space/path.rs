@@ -207,7 +207,7 @@ impl MapCurve {
     }
 }
 
-/// Simplifies a polyline (Douglas and Peucker 1973). Its two ends are kept.
+/// Simplifies a polyline (Douglas and Peucker 1973). Its two ends do not change.
 ///
 /// Every removed point lies within `tolerance` of the simplified line.
 #[must_use]

@@ -112,8 +112,8 @@ impl DesignSpace {
         })
     }
 
-    /// Returns a blend as a design of its own with the given name, or named by
-    /// [`Self::blend_label`] if the name is empty.
+    /// Returns a blend as a new design with the given name, or named by [`Self::blend_label`] if
+    /// the name is empty.
     ///
     /// With weight 1 on one design, returns a copy of that design.
     #[must_use]

@@ -24,8 +24,8 @@ const GRID: u32 = 80;
 /// designs are (heuristic).
 const COMPARED_PX: u32 = 32;
 
-/// Maximum number of pixels of a blend that becomes a design of its own (resource limit: as many as
-/// a large screen has).
+/// Maximum number of pixels of a blend that becomes a new design (resource limit: as many as a
+/// large screen has).
 const MAX_DESIGN_PX: f64 = 4e6;
 
 /// Pictures of all designs and the warp that aligns their features.
@@ -128,8 +128,8 @@ impl PictureSpace {
             .render(&self.blend.places(weights), weights, raster)
     }
 
-    /// Returns a blend as a picture of its own, in the resolution of the finest picture but with at
-    /// most [`MAX_DESIGN_PX`] pixels.
+    /// Returns a blend as a new picture, in the resolution of the finest picture but with at most
+    /// [`MAX_DESIGN_PX`] pixels.
     pub fn picture(&self, weights: &[f64]) -> Picture {
         let window = self.set.window(weights);
         let finest = self

@@ -1,9 +1,10 @@
 //! Components of a transition on the stage: those that a program spawns and those that the plugin
 //! adds.
 //!
-//! Guaranteed: removing or replacing any of these components never leaves an outdated picture. Not
-//! guaranteed: a picture of the new transition while its build is running. Until it finishes, the
-//! entity shows its previous picture, or nothing.
+//! Guaranteed: removing the [`Morph`] removes the picture, and a new transition replaces the whole
+//! picture. Not guaranteed: that removing the meshes or the [`StageTransition`] removes the
+//! picture; the [`Morph`] stays. While a new transition is being built, the entity shows its
+//! previous picture, or nothing.
 
 use bevy::prelude::*;
 

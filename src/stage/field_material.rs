@@ -53,7 +53,7 @@ pub(super) struct FieldMaterial {
 /// Properties of a field blend and its style that together select the shader variant.
 ///
 /// The shader does not branch on uniforms instead, because some drivers compile a new shader
-/// whenever a uniform changes, and t changes in each frame. Mesa's lavapipe 22.3 also kept all
+/// whenever a uniform changes, and t changes in each frame. Mesa's lavapipe 22.3 also stored all
 /// these shaders in memory, 26 MB per second of playback.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) struct FieldKind {
@@ -176,9 +176,11 @@ impl FieldMaterial {
 }
 
 impl FieldUniform {
-    /// Returns the uniform of a pair of fields. `within` is the blend parameter between these two
-    /// fields, in [0, 1] without extrapolation; the colours are those of the whole transition at
-    /// `t`.
+    /// Creates the shader parameters for one pair of fields of a transition.
+    ///
+    /// `t` is the blend parameter of the whole transition and determines the fill colour. `within`
+    /// is the blend parameter between the two fields of the pair. Values outside [0, 1]
+    /// extrapolate.
     pub(super) fn new(pair: &FieldPair, within: f64, t: f64, style: &StageStyle) -> Self {
         let blend = pair.blend();
         let grid = pair.grid();

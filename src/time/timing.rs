@@ -4,7 +4,7 @@
 //! One pass of the animation runs from one t to another and pauses at each end. Stops divide it
 //! into segments, each with its own easing; the animation may pause at a stop. The duration of a
 //! pass is distributed over its segments in proportion to their lengths in t, except that a segment
-//! may have a duration of its own. The play mode determines how passes are repeated.
+//! may have a separate duration. The play mode determines how passes are repeated.
 
 use crate::settings::named;
 use crate::time::EasingFunction;
@@ -59,7 +59,7 @@ fn is_none(secs: &f64) -> bool {
 }
 
 impl TransitionStop {
-    /// Creates a stop at `t` without a name, pause or settings of its own.
+    /// Creates a stop at `t` without a name, a pause or settings.
     #[must_use]
     pub fn at(t: f64) -> Self {
         Self {
@@ -93,7 +93,7 @@ impl TransitionStop {
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct Timing {
-    /// Duration of a pass in seconds without pauses, positive. A segment with a duration of its own
+    /// Duration of a pass in seconds without pauses, positive. A segment with a separate duration
     /// takes that time instead of its share.
     pub duration_secs: f64,
     /// Easing of all segments, except those whose stop at the smaller t sets its own.

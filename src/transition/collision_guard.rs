@@ -18,8 +18,8 @@
 //! designs; the direction of the motion makes no difference except for rounding. Not guaranteed:
 //! that every collision can be avoided. A shape that meets another one head-on is stopped by it and
 //! not led around it. A limb that passes all the way through another is on the other side of it in
-//! the final design, so the two cannot be kept apart. If no result can be proved, the one with the
-//! fewest folded faces and crossings is returned.
+//! the final design, so the two must pass through each other. If no result can be proved, the one
+//! with the fewest folded faces and crossings is returned.
 //!
 //! - `defects`: the first fold or collision of a motion
 //! - `drawn_pieces`: boundary loops that are drawn, and when

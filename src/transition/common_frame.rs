@@ -5,7 +5,7 @@ use crate::geometry::{Bounds, DVec2, Similarity, SimilarityError, twice_signed_a
 use crate::settings::named;
 use std::sync::Arc;
 
-/// How designs are fitted to the first design, before each design's own placement is applied.
+/// Alignment of designs with the first design, before each design's own placement is applied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DesignFit {
@@ -13,7 +13,7 @@ pub enum DesignFit {
     /// aligned.
     #[default]
     AsDrawn,
-    /// The centres of the bounding boxes are aligned; sizes are kept.
+    /// The centres of the bounding boxes are aligned; sizes do not change.
     Centred,
     /// As [`Self::Centred`], and designs are scaled to the area of the first one. For a truss, the
     /// area is the square of its diameter.

@@ -27,11 +27,11 @@ pub struct VectorFigure {
     /// paint layers, those of each layer are filled together.
     pub rings: Vec<Vec<DVec2>>,
     /// Paint layers, the lowest first, which together contain all rings. Empty if the figure has no
-    /// colours of its own.
+    /// paints.
     pub layers: Vec<FigureLayer>,
     /// Both ends of each bar.
     pub bars: Vec<[DVec2; 2]>,
-    /// Paints of each bar in source and target; empty if the bars have no colours of their own.
+    /// Paints of each bar in source and target; empty if the bars have no paints.
     pub bar_paints: Vec<[Option<Paint>; 2]>,
     /// Width of the bars in units of the designs.
     pub bar_width: f64,

@@ -100,7 +100,7 @@ impl fmt::Display for TransitionNote {
             ),
             Self::DiagonalAdded { share } => write!(
                 f,
-                "faces differ very much in size: {share:.0e} of the diagonal was added to the equations to solve them"
+                "faces differ very much in size, so {share:.0e} of the diagonal was added to the equations to make them solvable"
             ),
         }
     }

@@ -26,31 +26,31 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct TransitionOptions {
-    /// How pins and lines of plane warps move between the designs.
+    /// Motion of the pins and lines of plane warps between the designs.
     #[serde(skip_serializing_if = "is_default")]
     pub travel: FeatureTravel,
     /// Width of truss bars, as a fraction of the diameter of the largest design of the sequence.
     pub bar_width: f64,
-    /// How outlines are matched. Positions are in each design's own coordinates in a document, and
-    /// in those of the common frame in a specification.
+    /// Settings of the match of outlines. Positions are in each design's own coordinates in a
+    /// document, and in those of the common frame in a specification.
     #[serde(rename = "match", skip_serializing_if = "is_default")]
     pub matching: MatchSettings,
-    /// Parts that move in a time window of their own (rigid parts only).
+    /// Parts that move in a separate time window (rigid parts only).
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartTime>,
     /// Whether drawings keep their own colours.
     #[serde(skip_serializing_if = "is_default")]
     pub paint: PaintRule,
-    /// How painted parts fade and change their stacking order.
+    /// Options for the fading and the stacking order of painted parts.
     #[serde(skip_serializing_if = "is_default")]
     pub coats: PaintLayerOptions,
-    /// How much work is spent on finding a good match.
+    /// Amount of work for the search of a good match.
     #[serde(skip_serializing_if = "is_default")]
     pub quality: BuildQuality,
     /// Whether shapes are moved aside where they would collide.
     #[serde(skip_serializing_if = "is_default")]
     pub guard: CollisionAvoidance,
-    /// How matched outlines are triangulated.
+    /// Options for the triangulation of matched outlines.
     #[serde(skip_serializing_if = "is_default")]
     pub triangulation: PolygonOptions,
     /// Options of rigid parts.
@@ -60,7 +60,7 @@ pub struct TransitionOptions {
     pub paths: PathOptions,
     /// Options of distance fields.
     pub field: FieldOptions,
-    /// How two pictures are mixed.
+    /// Options for mixing two pictures.
     #[serde(skip_serializing_if = "is_default")]
     pub colours: ColourMix,
     /// Options of the line warp.
@@ -102,7 +102,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// How much work is spent on finding a good match of outlines for rigid parts.
+/// Amount of work for the search of a good match of outlines for rigid parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BuildQuality {
@@ -152,7 +152,7 @@ named! { PaintRule {
     One: "one", "One colour", "Fills each drawing with one colour that changes with t";
 } }
 
-/// Where the zero boundary of a distance field lies.
+/// Position of the zero boundary of a distance field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FieldBoundary {
@@ -176,9 +176,9 @@ named! { FieldBoundary {
 pub struct FieldOptions {
     /// The metric; all metrics except the Euclidean one need [`FieldBoundary::Binary`].
     pub metric: Metric,
-    /// Where the zero boundary of a field lies.
+    /// Position of the zero boundary of a field.
     pub boundary: FieldBoundary,
-    /// How the two fields are mixed.
+    /// Options for blending the two fields.
     pub blend: FieldBlend,
     /// Number of grid cells along the longer side of the grid. The distances, and the parameters
     /// ε and threshold of [`FieldBlend`], are in units of these cells.

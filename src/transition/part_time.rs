@@ -1,4 +1,4 @@
-//! Part timings: parts that move in a time window of their own.
+//! Part timings: time windows of single parts, in which these parts move.
 //!
 //! A part is identified by a point of a design. The timing applies to the whole motion of the part;
 //! if the part is split, to each of its pieces.

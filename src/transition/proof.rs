@@ -164,7 +164,7 @@ impl fmt::Display for TransitionProof {
                 };
                 write!(f, "checked at every moment: {faces}no outlines cross")?;
             }
-            _ => f.write_str("check failed")?,
+            _ => f.write_str("not proved")?,
         }
         if let Some(fold) = fold {
             write!(f, "; face {} may fold at t = {:.9}", fold.face + 1, fold.t)?;

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TransitionStyle {
-    /// Fill colour at t = 0 of shapes without a paint of their own.
+    /// Fill colour at t = 0 of shapes without a paint.
     pub source: Rgb,
-    /// Fill colour at t = 1 of shapes without a paint of their own.
+    /// Fill colour at t = 1 of shapes without a paint.
     pub target: Rgb,
     /// Colour of the background.
     pub ground: Rgb,

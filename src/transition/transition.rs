@@ -186,7 +186,7 @@ impl Transition {
     }
 
     /// Returns the t that the part of a vertex has reached when the transition is at `t`. The two
-    /// differ only if the part has a timing of its own.
+    /// differ only if the part has a separate timing.
     pub(crate) fn part_time_at(&self, vertex: u32, t: f64) -> f64 {
         match &self.0.built_warp.warp {
             AnyWarp::Staggered(warp) => warp.clock(vertex).part_time(t),

@@ -510,7 +510,7 @@ impl Arap {
     ///
     /// `clock(part, t)` returns the time at which `part` is evaluated in the frame at `t`. If the
     /// options name an anchor vertex, all parts are translated such that this vertex is on its
-    /// straight path, at the time of its own part.
+    /// straight path, at the time of its part.
     pub(in crate::warp) fn placer_by(
         &self,
         clock: impl Fn(usize, f64) -> f64 + Send + Sync + 'static,

@@ -49,7 +49,7 @@ named! { Homotopy {
         "Rotates at constant speed and stretches by equal factors. Never turns inside out, even \
          far beyond the designs.";
     Bounded: "bounded", "Bounded",
-        "Nothing is sheared more on the way than in the worse of the two designs. Sizes may \
+        "Nothing is sheared more in between than in the worse of the two designs. Sizes may \
          change and straight sides bend. Slow, unless played from a recording.";
 } }
 

@@ -113,7 +113,7 @@ impl LineWarp {
         check(points, lines)?;
         let line = |line: &LinePair| MovingLine::new(line.source, line.target);
         let pin = |pin: &PointPair| MovingLine::new([pin.source; 2], [pin.target; 2]);
-        // A pin has no length of its own that could determine its weight.
+        // A pin has no length, which would determine its weight, so it gets a nominal one.
         let with_nominal_length = |moving: MovingLine| {
             let length = moving.is_point().then_some(PIN_LENGTH * diameter);
             (moving, length)

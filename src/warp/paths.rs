@@ -117,7 +117,7 @@ impl Warp for BoundaryPaths {
             let BoundaryPathData { source, target, .. } = &*paths;
             let out = &mut placement.in_frame;
             match &paths.intrinsic {
-                // Exact ends: summing the edges would introduce rounding.
+                // The ends are copied, because summing the edges would introduce rounding.
                 _ if t == 0.0 => out.copy_from_slice(source),
                 _ if t == 1.0 => out.copy_from_slice(target),
                 Some(intrinsic) => intrinsic.write(t, out),

@@ -83,7 +83,7 @@ impl<W: PlaneWarp> PlaneWarp for RigidElasticPlaneWarp<W> {
         for (places, from_rest) in looks.into_iter().zip(self.rigid.maps_from_rest()) {
             places.iter_mut().for_each(|p| *p = from_rest(*p));
         }
-        // Exact ends, free of the rounding of the two rotations.
+        // The ends are copied to avoid the rounding of the two rotations.
         if t == 0.0 {
             in_source.copy_from_slice(frame);
         }

@@ -13,7 +13,7 @@ use crate::correspondence::{LinePair, PointPair, RegionMatch};
 use crate::geometry::{Bounds, DVec2};
 use crate::settings::named;
 
-/// How the features of a plane warp move between the designs.
+/// Motion of the features of a plane warp between the designs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FeatureTravel {
@@ -33,7 +33,7 @@ named! { FeatureTravel {
     Whole: "whole", "Rotate together",
         "Rotating shapes keep their size; the borders of pictures rotate too.";
     Straight: "straight", "Straight",
-        "Features move on straight lines; shapes that rotate far shrink on the way.";
+        "Features move on straight lines; shapes that rotate far shrink in between.";
 } }
 
 /// Best rigid motion of the source features onto the target features (least squares).

@@ -4,7 +4,7 @@
 //! position in the unstaggered interpolation at that time. Each part thus follows its usual path
 //! and only starts later or arrives earlier; the ends of the motion are unchanged. Parts share no
 //! vertices, so a frame still takes a single solve, however many clocks there are. An anchor vertex
-//! moves on its straight path according to the clock of its own part.
+//! moves on its straight path according to the clock of its part.
 
 use super::{Arap, Placer, Warp};
 use crate::time::{EasingFunction, NamedEasing};

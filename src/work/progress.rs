@@ -11,7 +11,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// Receives progress reports and decides whether the work goes on.
+/// Receives progress reports and decides whether the work continues.
 pub trait Progress: Sync {
     /// Reports the current stage, in a few words for people, and the fraction done, in [0, 1].
     ///
@@ -81,7 +81,7 @@ pub fn check_cancelled(progress: &dyn Progress) -> Result<(), Cancelled> {
 /// Interval at which [`run_cancellable`] checks for cancellation (heuristic).
 const CANCEL_POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// Runs a call that cannot be interrupted, on a thread of its own. Returns when the call ends or is
+/// Runs a call that cannot be interrupted, on a separate thread. Returns when the call ends or is
 /// cancelled.
 ///
 /// A cancelled call keeps running in the background until it ends, and its result is dropped.
@@ -121,7 +121,7 @@ pub fn run_cancellable<T: Send + 'static>(
     }
 }
 
-/// Runs the work in a rayon thread pool of its own.
+/// Runs the work in a separate rayon thread pool.
 fn in_own_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     match rayon::ThreadPoolBuilder::new().build() {
         Ok(pool) => pool.install(work),

@@ -4,11 +4,12 @@
 //! item. Method calls are not followed, because `x.f()` names no file. Test code is left out.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use syn::punctuated::Punctuated;
 use syn::visit::{self, Visit};
+
+use super::production::is_test;
 
 /// Segments of a path such as `crate::geometry::Ring`.
 pub type Names = Vec<String>;
@@ -34,13 +35,18 @@ pub struct Module {
 #[derive(Default)]
 pub struct Crate(pub BTreeMap<Names, Module>);
 
-/// Whether attributes mark an item as compiled for tests only, by `#[cfg(test)]`.
-pub fn is_test(attributes: &[syn::Attribute]) -> bool {
-    let is_cfg_test = |attribute: &syn::Attribute| {
-        attribute.path().is_ident("cfg")
-            && (attribute.parse_args::<syn::Path>()).is_ok_and(|path| path.is_ident("test"))
-    };
-    attributes.iter().any(is_cfg_test)
+/// All nodes of a graph that can be reached from `from` by one or more edges.
+pub fn reachable<'a, Node: Ord, Label>(
+    graph: &'a BTreeMap<Node, BTreeMap<Node, Label>>,
+    from: &'a Node,
+) -> BTreeSet<&'a Node> {
+    let mut reached = BTreeSet::new();
+    let mut open = vec![from];
+    while let Some(node) = open.pop() {
+        let next = graph.get(node).into_iter().flat_map(BTreeMap::keys);
+        open.extend(next.filter(|node| reached.insert(*node)));
+    }
+    reached
 }
 
 impl Crate {
@@ -53,9 +59,7 @@ impl Crate {
 
     /// Parses the module `name` in `file` and its children, whose files are in `folder`.
     fn add_file(&mut self, name: Names, file: &Path, folder: &Path) {
-        let text = fs::read_to_string(file).expect("a source file");
-        let parsed = syn::parse_file(&text).expect("Rust");
-        self.add_items(name, file, folder, &parsed.items);
+        self.add_items(name, file, folder, &super::parse(file).items);
     }
 
     fn add_items(&mut self, name: Names, file: &Path, folder: &Path, items: &[syn::Item]) {

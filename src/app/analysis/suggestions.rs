@@ -38,8 +38,8 @@ const MAX_SUGGESTIONS: usize = 3;
 /// offered, although hardly anything of the designs is visible halfway (heuristic).
 const MAX_ADDED_OVERSHOOT: f64 = 0.2;
 
-/// Penalty, added to the overshoot when suggestions are ranked, for mirroring or rotating the
-/// target (heuristic).
+/// Value added to the overshoot of a suggestion that mirrors or rotates the target, so that it is
+/// ranked below similar suggestions that keep the target as drawn (heuristic).
 const CHANGED_TARGET_PENALTY: f64 = 0.25;
 
 /// A change of the settings that may remove defects.

@@ -1,8 +1,8 @@
 //! Comparison: the same designs at the same t by a second method, shown to the right of the stage.
 //!
-//! The second transition is an entity on a render layer of its own, seen by a camera of its own. It
-//! is built in the background with the same settings except for the method; if the stage already
-//! uses that method, its transition is shared.
+//! The second transition is an entity on a separate render layer, seen by a separate camera. It is
+//! built in the background with the same settings except for the method; if the stage already uses
+//! that method, its transition is shared.
 
 use bevy::prelude::{
     Component, DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource,
@@ -140,8 +140,8 @@ pub fn follow(session: Res<Session>, mut comparison: ResMut<Comparison>) {
     let now = comparison.bypass_change_detection();
     let has_result = now.collect_result();
     if !now.is_shown {
-        // Discarded only once: resetting the comparison in each frame would report a change in each
-        // frame.
+        // The comparison is discarded only once: discarding it in each frame would report a change
+        // in each frame.
         if now.settings.is_some() {
             now.discard();
             comparison.set_changed();

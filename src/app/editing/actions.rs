@@ -212,7 +212,7 @@ impl MatchEditor {
                     }
                 }
             }
-            // Unreachable: `make_explicit` has converted these.
+            // These cannot occur, because `make_explicit` has converted them.
             EditorGrab::Feature(_) | EditorGrab::AutomaticCut(..) | EditorGrab::NewLine(_) => {}
         }
     }

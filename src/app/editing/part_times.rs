@@ -58,8 +58,8 @@ pub fn set_part_time(
     let time_of_piece = time_of_pieces(sheet, times);
     let pieces_of_time = pieces_of_times(sheet, times);
     let is_removed = |k: usize| pieces_of_time[k].contains(&piece);
-    // A removed entry may also apply to other pieces of the same part. Each of these pieces gets an
-    // entry of its own with the same time window.
+    // A removed entry may also apply to other pieces of the same part. Each of these pieces gets a
+    // separate entry with the same time window.
     let remaining = time_of_piece
         .iter()
         .enumerate()

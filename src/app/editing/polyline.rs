@@ -64,8 +64,8 @@ pub fn inside_intervals<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) ->
 fn crossings<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> impl Iterator<Item = f64> {
     let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
     edges
-        // Half-open: a vertex at this height counts once. Horizontal edges, which would divide by
-        // zero below, are excluded.
+        // The interval is half-open, so a vertex at this height counts once. Horizontal edges,
+        // which would divide by zero below, are excluded.
         .filter(move |(a, b)| (a.y > y) != (b.y > y))
         .map(move |(a, b)| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
 }

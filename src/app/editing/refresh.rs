@@ -22,7 +22,7 @@ pub fn refresh(
         return;
     }
     let mut rebuilt = MatchSheet::of(&session);
-    // Letters are kept only for the same designs: points of other designs are different even if
+    // Letters are reused only for the same designs: points of other designs are different even if
     // they coincide with earlier ones.
     let before = std::mem::take(&mut *sheet);
     let is_same = !is_opened && before.sides == rebuilt.sides;

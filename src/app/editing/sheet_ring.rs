@@ -1,4 +1,4 @@
-//! One matched ring (outline or hole) as it lies in both designs.
+//! One matched ring (outline or hole) at its positions in both designs.
 
 use crate::app::editing::polyline;
 use crate::correspondence::{PointPair, RingKind};

@@ -56,8 +56,8 @@ fn natural_sort_key(name: &str) -> Vec<(String, u64)> {
     words_and_numbers
 }
 
-/// Opens all files that were dropped together. The system reports them one by one, but all before
-/// the next frame (`winit` on X11, Windows and macOS).
+/// Opens all files that were dropped together. The system sends one event per file, but all events
+/// before the next frame (`winit` on X11, Windows and macOS).
 pub fn read_drops(
     mut drops: MessageReader<FileDragAndDrop>,
     presentation: Res<Presentation>,

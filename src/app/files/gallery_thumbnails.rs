@@ -86,7 +86,7 @@ impl GalleryThumbnails {
             }
             match job.poll()? {
                 Ok(strips) => self.done.extend(strips),
-                // Cancelled in favour of more urgent work: tried again later.
+                // The job was cancelled in favour of more urgent work and is tried again later.
                 Err(_) if job.is_cancelled() => self.waiting.push_front(task.clone()),
                 // A project that cannot be shown has no strip; opening it shows why.
                 Err(_) => {}

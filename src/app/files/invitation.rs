@@ -38,9 +38,9 @@ impl Invitation {
         self.is_shown
     }
 
-    /// Closes the invitation; returns whether it was shown.
-    pub fn close(&mut self) -> bool {
-        std::mem::take(&mut self.is_shown)
+    /// Closes the invitation.
+    pub fn close(&mut self) {
+        self.is_shown = false;
     }
 }
 

@@ -214,7 +214,7 @@ fn set_method(project: &mut Project, warp: WarpKind, content: ContentKind) {
 /// The next method after the current one, in cyclic order, that the designs support.
 fn next_method(session: &Session) -> Option<(WarpKind, ContentKind)> {
     let project = session.project()?;
-    // All warps for the same content first, so that pictures stay pictures.
+    // All warps for the same content are tried first, so that pictures stay pictures.
     let methods: Vec<_> = ContentKind::ALL
         .into_iter()
         .flat_map(|content| WarpKind::ALL.map(|warp| (warp, content)))

@@ -13,7 +13,7 @@ use bevy::prelude::Resource;
 use crate::app::input::editor_action::EditorAction;
 use crate::app::input::intent::Intent;
 
-/// How a binding recognises its key.
+/// Condition by which a binding recognises its key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeyTrigger {
     /// A key with a name, such as an arrow.
@@ -69,8 +69,8 @@ impl KeyModifiers {
             | KeyCode::ControlRight
             | KeyCode::SuperLeft
             | KeyCode::SuperRight => self.control = is_down,
-            // Not the right Alt key: as AltGr it prints signs on many keyboards, and signs are
-            // bound.
+            // The right Alt key is ignored: as AltGr it types symbols on many keyboards, and some
+            // symbols have bindings.
             KeyCode::AltLeft => self.alt = is_down,
             _ => {}
         }

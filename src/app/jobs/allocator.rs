@@ -2,9 +2,9 @@
 
 /// Returns freed but unused memory to the system; does nothing outside Linux with glibc.
 ///
-/// Every recording runs on threads of its own, and glibc keeps the memory that each thread has
-/// freed: an hour of switching projects grew the process from 340 to 470 MB. Takes some
-/// milliseconds; call it from a background job.
+/// Every recording runs on separate threads, and glibc keeps the memory that each thread has freed:
+/// an hour of switching projects grew the process from 340 to 470 MB. Takes some milliseconds; call
+/// it from a background job.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 #[expect(unsafe_code, reason = "a function of the C library; it takes a number")]
 pub fn return_free_memory() {

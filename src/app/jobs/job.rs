@@ -1,6 +1,6 @@
 //! Background job: a thread that reports progress and can be cancelled.
 //!
-//! Uses threads of its own instead of Bevy's task pool: on a two-core machine that pool has one
+//! Uses separate threads instead of Bevy's task pool: on a two-core machine that pool has one
 //! worker, and exporting a film must not delay building a transition. A panic inside a job is
 //! returned as an error and affects nothing else.
 
@@ -51,7 +51,7 @@ impl Progress for JobTracker {
         // Stored in thousandths, because there is no atomic float; a progress bar of 120 points
         // shows no finer steps.
         let permille = (fraction.clamp(0.0, 1.0) * 1000.0) as u32;
-        // Relaxed, here and below: the values are independent of each other.
+        // Relaxed ordering suffices here and below, because the values are independent.
         self.permille.store(permille, Ordering::Relaxed);
     }
 

@@ -134,7 +134,7 @@ pub fn answer_recovery(
             RecoveryAnswer::Restore => {
                 let abandoned = autosave.abandoned.remove(0);
                 session.open(LoadRequest::Recovered(Box::new(abandoned.project)));
-                // Keeping the slot keeps its lock: the autosave is still the only copy of these
+                // Storing the slot keeps it locked: the autosave is still the only copy of these
                 // changes.
                 autosave.opening_slot = Some(abandoned.slot);
             }

@@ -5,7 +5,6 @@
 
 use std::time::{Duration, Instant};
 
-use bevy::ecs::system::SystemParam;
 use bevy::prelude::{
     Commands, DetectChangesMut, MessageReader, MessageWriter, Query, Real, Res, ResMut, Resource,
     Time, With,
@@ -14,13 +13,11 @@ use bevy::window::{
     CursorMoved, CursorOptions, MonitorSelection, PrimaryWindow, Window, WindowMode,
 };
 
-use crate::app::compare::comparison::Comparison;
-use crate::app::editing::editor::MatchEditor;
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
-use crate::app::map::map_view::MapView;
 use crate::app::playback::player::{Playback, first_stop};
 use crate::app::session::state::Session;
+use crate::app::tool_views::ToolViews;
 use crate::export::Captions;
 
 /// Seconds after which the pointer is hidden if it does not move (heuristic).
@@ -100,25 +97,6 @@ impl Presentation {
             idle_secs: 0.0,
             before,
         });
-    }
-}
-
-/// Views that the user opens in place of the stage or to its right.
-#[derive(SystemParam)]
-pub struct ToolViews<'w> {
-    /// The match editor.
-    pub editor: ResMut<'w, MatchEditor>,
-    /// The comparison with another method.
-    pub comparison: ResMut<'w, Comparison>,
-    /// The map of all designs.
-    pub map: ResMut<'w, MapView>,
-}
-
-impl ToolViews<'_> {
-    /// Whether one of these views is open.
-    #[must_use]
-    pub fn is_any_open(&self) -> bool {
-        self.editor.is_open || self.comparison.is_shown || self.map.is_shown
     }
 }
 

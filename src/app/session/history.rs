@@ -45,7 +45,7 @@ impl Edit for HistoryStep {
     }
 
     fn merge(&mut self, other: Self) -> Merged<Self> {
-        // A change without a gesture number is a step of its own, unless it amends the step before.
+        // A change without a gesture number is a separate step, unless it amends the step before.
         let is_same = self.mark.is_some() && self.mark == other.mark;
         if !(is_same || other.amends) {
             return Merged::No(other);

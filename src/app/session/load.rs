@@ -153,7 +153,7 @@ impl RebuildRequest {
         progress: &dyn Progress,
         on_interim: &mut dyn FnMut(InterimResult),
     ) -> Result<BuiltProject, LoadError> {
-        // Shortcuts for sliders being dragged, which avoid the slow steps of a build.
+        // These shortcuts avoid the slow steps of a build while a slider is dragged.
         if !self.must_reread
             && let Some(stages) = self
                 .with_new_field_blend()

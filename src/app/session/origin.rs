@@ -18,7 +18,8 @@ pub enum ProjectOrigin {
 /// Absolute path of a design; keeps the part of the path that selects something within the file.
 #[must_use]
 pub fn absolute(path: &Path) -> PathBuf {
-    // Not canonicalised: a symbolic link must keep naming whatever it points to later.
+    // The path is not canonicalised, so that a symbolic link leads to its later target if it is
+    // changed.
     let absolute_file = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     DesignSource::from_path(path)
         .map_file(absolute_file)

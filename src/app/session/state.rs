@@ -395,11 +395,12 @@ impl Session {
             return;
         };
         self.is_stale = open.is_stale();
-        // Opening another project goes on; only a rebuild can become unnecessary.
+        // A running job that opens another project continues; only a rebuild can become
+        // unnecessary.
         let building = self.work.take_if(|work| work.origin.is_none());
         // If the stage already shows what is requested, the running build is cancelled.
         if let Some(work) = building.filter(|_| self.is_stale) {
-            // A build of the very same settings just continues.
+            // A running build of exactly these settings continues.
             self.is_stale = work.builds_other_than(&open.loaded.project);
             self.work = Some(work);
         }

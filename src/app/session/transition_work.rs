@@ -103,9 +103,9 @@ impl TransitionWork {
         settings.is_none_or(|settings| needs_build(settings, project))
     }
 
-    /// Takes the interim result that is due to be shown. The first one of a project being opened
-    /// comes with the project's origin: from then on the project is open, and the work counts as
-    /// its rebuild.
+    /// Takes the interim result that is due to be shown. If a project is being opened, its first
+    /// interim result is returned with the project's origin: from then on the project is open, and
+    /// the work counts as its rebuild.
     pub fn take_interim(&mut self) -> Option<(BuiltProject, Option<ProjectOrigin>)> {
         let receiver = self.interim_results.get_mut();
         let receiver = receiver.unwrap_or_else(PoisonError::into_inner);

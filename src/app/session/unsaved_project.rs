@@ -59,7 +59,7 @@ impl UnsavedProject {
         })
     }
 
-    /// Where the project came from; it stays the origin after recovery.
+    /// Returns the origin of the project, which stays the same after recovery.
     #[must_use]
     pub fn origin(&self) -> ProjectOrigin {
         match &self.origin {

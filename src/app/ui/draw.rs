@@ -247,13 +247,13 @@ fn overlays(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &m
     if state.editor.is_open {
         match_editor::overlay(ctx, state, stage, intents);
     }
-    // With hidden panels an audience sees only the drawing; notices wait until the panels are shown
-    // again.
+    // If the panels are hidden, the audience sees only the drawing. Notices are shown once the
+    // panels are visible again.
     if state.preferences.panels {
         messages(ctx, state, stage, intents);
     }
-    // Help and questions are shown even with hidden panels, because the user has just asked for
-    // them.
+    // Help and questions are shown even if the panels are hidden, because an action of the user has
+    // just opened them.
     if state.preferences.help {
         help::show(ctx, state, intents);
     }

@@ -45,7 +45,7 @@ impl Histogram {
         for step in &steps[below..above] {
             counts[(step - first) as usize] += 1;
         }
-        // Outliers have a bin of their own, as wide as necessary. Otherwise all other values would
+        // Outliers have a separate bin, as wide as necessary. Otherwise all other values would
         // share a single bin.
         if below > 0 {
             edges.insert(0, edge(steps[0]));

@@ -229,7 +229,10 @@ impl PairBatchArgs {
             return jobs.iter().filter_map(measure).collect();
         }
         // Each core takes one pair at a time, because some pairs take much longer than others.
-        jobs.par_iter().with_max_len(1).filter_map(measure).collect()
+        jobs.par_iter()
+            .with_max_len(1)
+            .filter_map(measure)
+            .collect()
     }
 
     /// Measures a pair. An error or a panic becomes the result of the pair.

@@ -241,7 +241,8 @@ impl PairReport {
         let mesh_report = mesh.and_then(measure::mesh_report);
         let [sampling, checking] =
             [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| ProgressSpan::new(progress, a, b));
-        let film = measure::film_report(transition, samples, &sampling).map_err(CliError::failed)?;
+        let film =
+            measure::film_report(transition, samples, &sampling).map_err(CliError::failed)?;
         let verdict = Verdict::of_film(transition, &film, &checking).map_err(CliError::failed)?;
         let seconds = ReportSeconds {
             import: opened.import_time.as_secs_f64(),

@@ -65,7 +65,13 @@ impl SpaceMeasurement {
         if self.are_pictures {
             lines.cells(("", NAME_WIDTH), ["difference"]);
         } else {
-            let heads = ["difference", "folds", "crossings", "conformal", "area error"];
+            let heads = [
+                "difference",
+                "folds",
+                "crossings",
+                "conformal",
+                "area error",
+            ];
             lines.cells(("worst of nine blends", NAME_WIDTH), heads);
         }
         for edge in &report.edges {

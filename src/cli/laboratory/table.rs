@@ -58,7 +58,9 @@ pub(super) enum PairTableError {
 /// Error of a row.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum PairRowError {
-    #[error("the row has {found} cells but the header {expected}; quote cells that contain commas")]
+    #[error(
+        "the row has {found} cells but the header has {expected}; quote cells that contain commas"
+    )]
     CellCount { found: usize, expected: usize },
     #[error("the {0} is not text in UTF-8; save the table in UTF-8")]
     NotText(&'static str),

@@ -157,12 +157,12 @@ fn film(report: &PairReport, lines: &mut NumberLines) {
     };
     let asymmetry = |distance: f64| {
         format!(
-            "{} of the diameter if the designs are swapped",
+            "vertices differ by up to {} of the diameter if the designs are swapped",
             short(distance)
         )
     };
     let overshoot = format!(
-        "area {}, perimeter {}, turning {} beyond a steady change",
+        "area {}, perimeter {}, turning {} beyond steady change",
         percent(film.area_variation_excess),
         percent(film.perimeter_variation_excess),
         percent(film.turning_excess)

@@ -1,11 +1,11 @@
 //! Boundary rings with corresponding points in all designs of a family.
 //!
-//! One of the designs is the *hub*; every other design is matched with it. Each match adds points
-//! of its own to the hub's outline. The hub's outline is straight between two neighbouring corners,
-//! so the points that the matches add on such an edge can be ordered along it. Where only some
-//! matches have a point, the other designs get a corresponding one, interpolated between their
-//! neighbouring points along the same edge. Points of different matches that lie at the same place
-//! on the hub become one point.
+//! One of the designs is the *hub*; every other design is matched with it. Each match adds further
+//! points to the hub's outline. The hub's outline is straight between two neighbouring corners, so
+//! the points that the matches add on such an edge can be ordered along it. Where only some matches
+//! have a point, the other designs get a corresponding one, interpolated between their neighbouring
+//! points along the same edge. Points of different matches that lie at the same place on the hub
+//! become one point.
 
 use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch};
 use crate::geometry::{Bounds, DVec2};

@@ -261,7 +261,7 @@ impl MidpointGraph {
         None
     }
 
-    /// Returns the midpoints of the edges that are crossed on the way to `face`, in order.
+    /// Returns the midpoints of the edges that are crossed before `face` is reached, in order.
     fn midpoints_to(&self, mut face: usize, reached: &PredecessorMap) -> Vec<DVec2> {
         let mut points = Vec::new();
         while let Some(&Some((before, k))) = reached.get(&face) {

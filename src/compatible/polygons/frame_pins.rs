@@ -149,7 +149,7 @@ impl CompatibleMesh {
         // Every edge between two fixed vertices is split, so that each face has a vertex that can
         // move when the pins do.
         transfer::split_chords(&mut mesh);
-        // The mesh moves in several steps, so that edges can be flipped on the way.
+        // The mesh moves in several steps, so that edges can be flipped between the steps.
         for step in 1..=STEPS {
             let along = f64::from(step) / f64::from(STEPS);
             // `zip` ends with `fixed_targets`, so only the border, which stays in place, and the

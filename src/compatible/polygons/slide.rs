@@ -174,7 +174,8 @@ impl QuadraticProxy {
         // The capacity is 36 entries for each face (two designs × two axes × three edges × three
         // entries) and one for each unknown.
         let mut matrix = SymmetricMatrix::zero(unknowns, 36 * energy.faces.len() + unknowns);
-        // Positive, so that an unknown without springs gets a positive diagonal entry.
+        // The initial value is positive, so that an unknown without springs gets a positive
+        // diagonal entry.
         let mut stiffness_of = vec![f64::MIN_POSITIVE; unknowns];
         for &(face, weight) in &energy.faces {
             let [p, q] = mesh.corners(face);

@@ -189,7 +189,7 @@ fn user_groups(
     Ok(groups)
 }
 
-/// Returns the parts that the user declared unmatched, each as a group of its own. Links and pins
+/// Returns the parts that the user declared unmatched, each as a separate group. Links and pins
 /// take precedence.
 fn declared_unmatched(
     designs: [&Regions; 2],
@@ -209,7 +209,7 @@ fn declared_unmatched(
 }
 
 /// Adds each unmatched part to the nearest group of its paint layer whose single part in the other
-/// design may be split for it. If there is no such group, the part gets a group of its own.
+/// design may be split for it. If there is no such group, the part becomes a separate group.
 fn assign_unmatched(
     groups: &mut Vec<PartGroup>,
     designs: [&Regions; 2],

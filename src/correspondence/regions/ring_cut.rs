@@ -13,7 +13,7 @@ use crate::work::progress::{Progress, check_cancelled};
 use rayon::prelude::*;
 
 /// Number of places on the boundary at which the first round of the search tries a cut (resource
-/// limit: each place needs a match of its own).
+/// limit: each place needs a separate match).
 const FIRST_PLACES: u32 = 28;
 /// Number of samples of each trial match (resource limit: keeps all trials together about as fast
 /// as one full match).

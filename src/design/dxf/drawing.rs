@@ -280,8 +280,8 @@ impl BlockExpansion<'_> {
                         let to_base = DAffine2::from_translation(-block.base);
                         for place in places {
                             self.count(1)?;
-                            // Applied from right to left: moves the base point to the origin,
-                            // inserts the block, applies the transform of the outer block.
+                            // From right to left, the product moves the base point to the origin,
+                            // inserts the block, and applies the outer block's transform.
                             let inner = *by * *place * to_base;
                             self.place(&block.entities, &inner, Some(&ink), depth + 1)?;
                         }

@@ -17,7 +17,7 @@ const MAX_POINTS: usize = 1_000_000;
 /// Applies a group's opacity to its shapes; returns the shapes, and whether the result is exact.
 ///
 /// SVG fades the group as a whole, so a shape must not show through another shape of the group.
-/// Covered parts are therefore subtracted before the shapes are faded one by one. The result is
+/// Covered parts are therefore subtracted before each shape is faded separately. The result is
 /// inexact if the subtraction would exceed a limit, or if a covering shape is itself translucent.
 pub(super) fn apply_group_opacity(
     shapes: Vec<SvgShape>,

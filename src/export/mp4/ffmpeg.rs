@@ -49,8 +49,8 @@ pub(super) fn encode_command(size: PixelSize, fps: f64, output: &Path) -> Comman
     // The colours are stated for input and output alike, so that ffmpeg does not convert them.
     let colours = "-color_range tv -colorspace bt709 -color_primaries bt709 -color_trc bt709";
     let input = format!("-f rawvideo -pix_fmt yuv420p -s {size} -r {fps} {colours} -i -");
-    // `-y`: the temporary file already exists. The fast preset suffices for flat drawings and makes
-    // files no larger; encoders without presets ignore it.
+    // `-y` overwrites the temporary file, which already exists. The fast preset suffices for flat
+    // drawings and makes files no larger; encoders without presets ignore it.
     let speed = "-preset veryfast";
     let line =
         format!("-y {input} -an -pix_fmt yuv420p {colours} {speed} -movflags +faststart -f mp4");

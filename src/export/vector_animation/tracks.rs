@@ -2,7 +2,7 @@
 //! keyframes.
 //!
 //! A scene is a maximal run of pieces with the same shapes. Each time the film passes through a
-//! scene, the scene becomes a layer of its own that is visible for that period only.
+//! scene, the scene becomes a separate layer that is visible for that period only.
 
 use super::animation::VectorAnimation;
 use super::keyframes::fewest_keys;

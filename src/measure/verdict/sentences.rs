@@ -23,7 +23,7 @@ impl fmt::Display for FindingKind {
                 2 => write!(f, "the boundary crosses itself twice"),
                 n => write!(f, "the boundary crosses itself {n} times"),
             },
-            Self::Pieces { count, .. } => write!(f, "breaks into {count} pieces"),
+            Self::Pieces { count, .. } => write!(f, "the shape breaks into {count} pieces"),
             Self::Holes { count, at_ends } => match count {
                 1 => write!(f, "1 hole instead of none"),
                 count => write!(f, "{count} holes instead of {at_ends}"),
@@ -96,7 +96,7 @@ impl fmt::Display for FindingCause {
         match self {
             Self::StraightPaths { turn, .. } => write!(
                 f,
-                "straight paths flatten rotating parts, here rotating by {}",
+                "straight paths flatten parts that rotate, here by {}",
                 degrees(turn.abs())
             ),
             Self::FarTurn { part, turn } => {
@@ -134,10 +134,10 @@ impl fmt::Display for FindingCause {
             ),
             Self::BlindFields => f.write_str("distance fields do not match parts with each other"),
             Self::SeenTwice => f.write_str(
-                "pins or lines near it pass each other, so the plane folds between them",
+                "pins or lines near this place pass each other, so the plane folds between them",
             ),
-            Self::FeaturesMeet => f.write_str("pins come too close to each other in between"),
-            Self::OutOfReach => f.write_str("the plane would have to fold to reach it"),
+            Self::FeaturesMeet => f.write_str("pins come too close to each other at this t"),
+            Self::OutOfReach => f.write_str("no warp without folds reaches all pins and lines"),
             Self::NothingInside => f.write_str(
                 "boundary points move independently, and no mesh inside keeps them apart",
             ),
@@ -157,7 +157,7 @@ impl fmt::Display for Remedy {
             }
             Self::Pin { source, target } => write!(
                 f,
-                "pin {} in the source to the same point of the target, now at {}",
+                "pin {} in the source to its counterpart in the target; now it is matched to {}",
                 position(source),
                 position(target)
             ),
@@ -174,13 +174,15 @@ impl fmt::Display for Remedy {
             Self::RigidParts => write!(f, "choose rigid parts as the method"),
             Self::Lattices => write!(
                 f,
-                "move or delete pins or lines near it, or choose lattices without folds"
+                "move or delete pins or lines near this place, or choose lattices without folds"
             ),
-            Self::AnotherWay => write!(f, "move the path on the map away from it"),
-            Self::MovePins => write!(f, "move or delete pins near it"),
+            Self::AnotherWay => {
+                write!(f, "change the path on the map so that it avoids this blend")
+            }
+            Self::MovePins => write!(f, "move or delete pins near this place"),
             Self::LetFold => write!(
                 f,
-                "move or delete pins near it, or allow the lattices to fold"
+                "move or delete pins near this place, or allow the lattices to fold"
             ),
         }
     }

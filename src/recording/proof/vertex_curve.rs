@@ -87,7 +87,7 @@ impl VertexCurve {
             left.control_points[k] = right.control_points[0];
         }
         let scale = self.control_points.iter().map(|p| p.abs().max_element());
-        // At most three roundings for each step of the algorithm.
+        // Each step of the algorithm has at most three roundings.
         let error = self.error + (3 * last) as f64 * EPS * scale.fold(0.0, f64::max);
         [left.error, right.error] = [error; 2];
         [left, right]

@@ -3,7 +3,7 @@
 //! Each step starts from positions without collisions. A vertex and an edge that come close to each
 //! other there have a separating line between them. The line rotates with the edge, and in the next
 //! step both must stay on their sides of it. Vertices therefore cannot slip through edges between
-//! two steps. Vertices that nothing comes close to are not displaced.
+//! two steps. Vertices that stay away from all edges are not displaced.
 
 use super::compliance::MeshCompliance;
 use super::outlines::{GuardedOutlines, GuardedPair};

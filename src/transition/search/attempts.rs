@@ -107,7 +107,7 @@ enum SearchBranch {
 enum PieceCondition {
     /// The user has not chosen a treatment of unmatched holes.
     FreeHoles,
-    /// The user has not requested that the drawn orientation be kept.
+    /// The user has not fixed the drawn orientation.
     FreeOrientation,
     /// The user has not set the weight of stretching.
     FreeCosts,
@@ -134,7 +134,7 @@ enum PieceCondition {
 enum TriedOptions {
     /// The requested options.
     Requested,
-    /// The requested options, but with the drawn orientation kept.
+    /// The requested options, but with the drawn orientation fixed.
     Upright,
     /// The weights [`OTHER_STRETCH_COSTS`], and a high weight of inner distances.
     OtherCosts,

@@ -20,7 +20,7 @@ pub(in crate::transition) type PieceResult = Result<MatchCandidate, (PieceMatch,
 /// Options with which the pieces of a group are matched.
 pub(in crate::transition) struct MatchVariant {
     pub(in crate::transition) options: MatchOptions,
-    /// How unmatched holes are treated.
+    /// Treatment of unmatched holes.
     pub(in crate::transition) holes: HolePolicy,
 }
 

@@ -1,4 +1,4 @@
-//! Tests of part timings: parts that move in time windows of their own.
+//! Tests of part timings: parts that move in separate time windows.
 
 use super::*;
 use crate::content::Content;

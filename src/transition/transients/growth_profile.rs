@@ -7,8 +7,10 @@ use std::f64::consts::TAU;
 /// area are tabulated (resource limit).
 pub(in crate::transition) const SIZE_STEPS: usize = 16;
 
-/// Table of the total turning and the area of a growing shape, in equal steps from size 0 to full
-/// size. The turning is in radians; one full turn per outline is subtracted.
+/// Turning and area of a growing shape at equally spaced sizes, from size 0 to the full size.
+///
+/// The turning of an outline is the sum of its absolute exterior angles, in radians. The table
+/// holds the turning of all outlines minus 2π for each, so it is 0 for convex outlines.
 #[derive(Clone)]
 pub(in crate::transition) struct GrowthProfile([[f64; 2]; SIZE_STEPS + 1]);
 

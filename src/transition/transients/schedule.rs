@@ -204,8 +204,8 @@ impl TransientSchedule {
     }
 
     /// Returns the candidate windows with their costs above the cheapest, in increasing order,
-    /// while all other windows are fixed. The current window is cheaper by [`ORDERLY`], so that
-    /// reading order is kept. The short windows of [`JUMPS`] come last.
+    /// while all other windows are fixed. The current window is cheaper by [`ORDERLY`], so that the
+    /// reading order is preserved. The short windows of [`JUMPS`] come last.
     pub(in crate::transition) fn ranked(&self, k: usize) -> Vec<(f64, TimeWindow)> {
         let (now, mut ranked) = (self.coming[k].life, self.costs(k));
         for (cost, life) in &mut ranked {

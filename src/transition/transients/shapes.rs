@@ -30,7 +30,7 @@ pub(in crate::transition) fn drawn(
             }),
         })
     };
-    // In parallel, because the thickness of a swelling part takes long to compute.
+    // This runs in parallel, because the thickness of a swelling part takes long to compute.
     let lives = film.time_windows().par_iter().enumerate();
     lives.filter_map(drawn).partition_map(|drawn| drawn)
 }

@@ -372,7 +372,7 @@ impl BlendBar {
         Self {
             ends,
             ways: ways.collect(),
-            // length²/2, divided by the squared length: the same for all designs.
+            // The stiffness is length²/2 divided by length², so it is the same for all designs.
             stiffness: 0.5,
         }
     }

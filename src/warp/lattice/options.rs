@@ -15,8 +15,8 @@ pub const MAX_LATTICE_CELLS: u32 = 1024;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LatticeOptions {
-    /// Number of lattices, 1 to 9; each has half the spacing of the previous one. Up to
-    /// [`MAX_EXTRA_LEVELS`] further lattices are added while a feature is missed.
+    /// Number of levels, 1 to 9. The lattice of each level has half the spacing of the previous
+    /// one. While an error exceeds the tolerance, up to [`MAX_EXTRA_LEVELS`] levels are added.
     pub levels: u32,
     /// Number of cells of the first lattice along the longer side of the frame, 1 to 32. With
     /// fewer cells a feature affects more of the plane.

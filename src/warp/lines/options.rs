@@ -28,7 +28,7 @@ pub enum LineInterpolation {
 named! { LineInterpolation {
     MiddleAndAngle: "middle-and-angle", "Rotate",
         "The midpoint moves straight and the direction rotates by the smaller angle";
-    Ends: "ends", "Ends", "Both ends move straight; a line that rotates shrinks on the way";
+    Ends: "ends", "Ends", "Both ends move straight; a line that rotates shrinks in between";
 } }
 
 /// Options of the line warp.

@@ -422,7 +422,7 @@ proptest! {
         let [source, target] = looked_up(&forward, t, &places());
         let [other_source, other_target] = looked_up(&backward, 1.0 - t, &places());
         for (a, b) in source.iter().zip(&other_target).chain(target.iter().zip(&other_source)) {
-            // Lines that nearly vanish on the way lose digits.
+            // Lines that nearly vanish in between lose digits.
             prop_assert!(a.distance(*b) < 1e-7 * (1.0 + a.length()), "{a} {b}");
         }
     }

@@ -1,9 +1,9 @@
 //! Intrinsic paths of all parts of a design.
 //!
 //! The design's centroid moves on a straight line and the parts move with the design
-//! ([`crate::warp::part_path`]). The mass of a part is its area; within a part the mass of a
-//! vertex is half the length of its two edges. Masses do not depend on t, because an area
-//! centroid would be 0/0 where a ring collapses on the way.
+//! ([`crate::warp::part_path`]). The mass of a part is its area; within a part the mass of a vertex
+//! is half the length of its two edges. Masses do not depend on t, because an area centroid would
+//! be 0/0 where a ring collapses in between.
 
 use super::options::RingPair;
 use super::part;

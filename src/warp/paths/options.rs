@@ -20,7 +20,7 @@ pub enum VertexPath {
 
 named! { VertexPath {
     Straight: "straight", "Straight",
-        "Vertices move on straight lines; rotating shapes shrink on the way";
+        "Vertices move on straight lines; rotating shapes shrink in between";
     Intrinsic: "intrinsic", "Intrinsic",
         "Edge lengths and directions change evenly; rotating shapes keep their form";
 } }

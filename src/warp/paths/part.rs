@@ -85,8 +85,8 @@ impl BridgedHole {
         } else {
             boundary_turn
         };
-        // A hole that is a point in one design has no edge directions of its own there and
-        // rotates with its bridge.
+        // A hole that is a point in one design has no edge directions there, so it rotates with its
+        // bridge.
         let is_point = |ring: &[DVec2]| ring.iter().all(|p| *p == ring[0]);
         if is_point(&pair.source) || is_point(&pair.target) {
             ring = IntrinsicRing::new(&pair.source, &pair.target, turn);
@@ -110,7 +110,7 @@ impl BridgedHole {
 
 /// Returns the centroids of a ring in source and target, with fixed vertex masses.
 ///
-/// An area centroid would be 0/0 where a ring collapses on the way.
+/// An area centroid would be 0/0 where a ring collapses in between.
 pub(super) fn centres(pair: &RingPair, ring: &IntrinsicRing) -> [DVec2; 2] {
     [&pair.source, &pair.target].map(|points| {
         let origin = points[0];

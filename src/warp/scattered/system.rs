@@ -139,7 +139,7 @@ impl RadialSolver {
             RadialBasis::Gaussian => 1.0,
             RadialBasis::Multiquadric => ratio.powf(2.0 * self.options.exponent),
         };
-        // Capped so that the matrix entries stay well within range.
+        // The value is capped so that the matrix entries stay well within range.
         (self.options.smoothing * factor).min(1e12)
     }
 

@@ -175,14 +175,17 @@ pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     response
 }
 
+/// Space between two segments of a segmented control, in points.
+const SEGMENT_GAP: f32 = 2.0;
+
 /// Draws a segmented control: a row of buttons, one of which is selected. Each option is a value
 /// with a label and a tooltip.
-pub fn choices<T: PartialEq + Clone>(
+pub fn segmented_control<T: PartialEq + Clone>(
     ui: &mut Ui,
     value: &mut T,
     options: &[(T, &str, &str)],
 ) -> Response {
-    choices_where(ui, value, options, |_| true)
+    segmented_control_where(ui, value, options, |_| true)
 }
 
 /// Draws a segmented control in which only the options for which `is_enabled` is true can be
@@ -190,7 +193,7 @@ pub fn choices<T: PartialEq + Clone>(
 ///
 /// Each button shows its own tooltip. The returned response belongs to none of the buttons, so that
 /// an enclosing row does not show its tooltip on top of theirs.
-pub fn choices_where<T: PartialEq + Clone>(
+pub fn segmented_control_where<T: PartialEq + Clone>(
     ui: &mut Ui,
     value: &mut T,
     options: &[(T, &str, &str)],
@@ -198,15 +201,13 @@ pub fn choices_where<T: PartialEq + Clone>(
 ) -> Response {
     // Tooltips are shown to the left of the panel; next to the buttons they would cover the row's
     // label.
-    let (left, width) = (ui.clip_rect().left(), ui.available_width());
-    let gap = 2.0;
-    let count = options.len().max(1) as f32;
-    let each = vec2((width - gap * (count - 1.0)) / count, CONTROL_HEIGHT);
-    ui.spacing_mut().item_spacing.x = gap;
+    let left = ui.clip_rect().left();
+    let size = vec2(segment_width(ui, options.len()), CONTROL_HEIGHT);
+    ui.spacing_mut().item_spacing.x = SEGMENT_GAP;
     for (option, label, tip) in options {
         let is_selected = *value == *option;
         let cell = ui.add_enabled_ui(is_enabled(option), |ui| {
-            choice(ui, is_selected, label, each)
+            segment(ui, is_selected, label, size)
         });
         let response = cell.inner;
         tooltip_left(&response, left, tip);
@@ -218,18 +219,18 @@ pub fn choices_where<T: PartialEq + Clone>(
 }
 
 /// Draws a row with a segmented control.
-pub fn choices_row<T: PartialEq + Clone>(
+pub fn segmented_row<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
     tip: &str,
     value: &mut T,
     options: &[(T, &str, &str)],
 ) {
-    row(ui, label, tip, |ui| choices(ui, value, options));
+    row(ui, label, tip, |ui| segmented_control(ui, value, options));
 }
 
 /// Draws one button of a segmented control.
-pub fn choice(ui: &mut Ui, is_selected: bool, label: &str, size: Vec2) -> Response {
+pub fn segment(ui: &mut Ui, is_selected: bool, label: &str, size: Vec2) -> Response {
     let palette = ThemePalette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| {
@@ -249,14 +250,14 @@ pub fn choice(ui: &mut Ui, is_selected: bool, label: &str, size: Vec2) -> Respon
 
 /// Draws a single button in the style of a segmented control, with the given width and a tooltip;
 /// returns whether it was clicked.
-pub fn choice_button(ui: &mut Ui, is_selected: bool, label: &str, tip: &str, width: f32) -> bool {
-    let response = choice(ui, is_selected, label, vec2(width, CONTROL_HEIGHT));
+pub fn segment_button(ui: &mut Ui, is_selected: bool, label: &str, tip: &str, width: f32) -> bool {
+    let response = segment(ui, is_selected, label, vec2(width, CONTROL_HEIGHT));
     with_tooltip(response, tip).clicked()
 }
 
 /// Draws a row with all choices of a setting: a segmented control, or a drop-down list where a
 /// title does not fit into its segment.
-pub fn choice_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
+pub fn setting_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     let titles = T::CHOICES.iter().map(|choice| choice.name().title);
     row(ui, label, tip, |ui| {
         if !fits_in_segments(ui, titles) {
@@ -264,15 +265,22 @@ pub fn choice_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T)
         }
         let option = |choice: &T| (*choice, choice.name().title, choice.name().sentence);
         let options: Vec<_> = T::CHOICES.iter().map(option).collect();
-        choices(ui, value, &options)
+        segmented_control(ui, value, &options)
     });
 }
 
-/// Returns whether each title fits into an equal share of the available width.
+/// Width of each of `count` segments that fill the available width, in points.
+fn segment_width(ui: &Ui, count: usize) -> f32 {
+    let count = count.max(1) as f32;
+    (ui.available_width() - SEGMENT_GAP * (count - 1.0)) / count
+}
+
+/// Returns whether each title fits into its segment.
 fn fits_in_segments<'a>(ui: &Ui, titles: impl ExactSizeIterator<Item = &'a str>) -> bool {
-    /// Space to the left and right of a title together, in points.
+    /// Space to the left and right of a title together, in points, so that titles of neighbouring
+    /// segments stay apart.
     const PADDING: f32 = 8.0;
-    let segment = ui.available_width() / titles.len().max(1) as f32;
+    let segment = segment_width(ui, titles.len());
     let width = |title: &str| {
         let painter = ui.painter();
         painter
@@ -299,7 +307,7 @@ pub fn menu<T: Choice>(ui: &mut Ui, salt: &str, value: &mut T, width: f32) -> Re
 
 /// Draws a row with a drop-down list of all choices of a setting, and below it the description of
 /// the selected choice.
-pub fn choice_list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
+pub fn setting_menu_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     row(ui, label, tip, |ui| {
         menu(ui, label, value, ui.available_width())
     });

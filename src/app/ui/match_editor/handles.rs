@@ -235,7 +235,7 @@ fn problem_card(
         area.min + vec2(0.0, BAR_HEIGHT + GRID),
         area.max - vec2(0.0, INSTRUCTIONS_HEIGHT),
     );
-    // If no pin caused the problem, the card goes to a corner, where it covers least.
+    // If no pin caused the problem, the card is shown in a corner, where it covers least.
     let corner = at.unwrap_or_else(|| area.left_bottom() - vec2(0.0, size.y));
     // If the card were larger than the area, `clamp` would panic on an inverted range.
     let max_corner = (area.max - size).max(area.min);

@@ -6,7 +6,7 @@ use bevy_egui::egui::{self, Align2, Context, Margin, Rect, vec2};
 use crate::app::input::editor_action::{EditorAction, EditorTool};
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::theme::GRID;
-use crate::app::ui::kit::widgets::{card, choice_button, fixed_layer, primary_button};
+use crate::app::ui::kit::widgets::{card, fixed_layer, primary_button, segment_button};
 use crate::app::ui::ui_state::{Intents, UiState};
 
 /// Height of the match editor's toolbar including the space above it, in points.
@@ -55,7 +55,7 @@ fn tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
         ),
     ];
     for (tool, applies, name, tip) in tools {
-        if applies && choice_button(ui, state.editor.tool == tool, name, tip, 52.0) {
+        if applies && segment_button(ui, state.editor.tool == tool, name, tip, 52.0) {
             intents.push(Intent::Editor(EditorAction::SelectTool(tool)));
         }
     }
@@ -76,11 +76,11 @@ fn views(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     let mut send = |action: EditorAction| intents.push(Intent::Editor(action));
     ui.add_space(GRID);
     let tip = "Shows the film next to the designs. The usual keys play and scrub it.";
-    if choice_button(ui, panes.film, "Film", tip, 44.0) {
+    if segment_button(ui, panes.film, "Film", tip, 44.0) {
         send(EditorAction::ShowFilm(!panes.film));
     }
     let tip = "On: all panes pan and zoom together. Off: each separately.";
-    if choice_button(ui, panes.are_linked, "Link views", tip, 68.0) {
+    if segment_button(ui, panes.are_linked, "Link views", tip, 68.0) {
         send(EditorAction::LinkPanes(!panes.are_linked));
     }
 }
@@ -92,11 +92,11 @@ fn outline_tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     let mut send = |action: EditorAction| intents.push(Intent::Editor(action));
     ui.add_space(GRID);
     let tip = "Snaps pins to nearby corners. Hold Shift to place a pin freely.";
-    if choice_button(ui, editor.snaps, "Snap", tip, 52.0) {
+    if segment_button(ui, editor.snaps, "Snap", tip, 52.0) {
         send(EditorAction::SetSnapping(!editor.snaps));
     }
     let tip = "Shows the triangles that divide both designs, the same ones on either side.";
-    if choice_button(ui, editor.triangles, "Triangles", tip, 68.0) {
+    if segment_button(ui, editor.triangles, "Triangles", tip, 68.0) {
         send(EditorAction::ShowTriangles(!editor.triangles));
     }
 }

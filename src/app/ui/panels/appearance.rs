@@ -6,7 +6,7 @@ use bevy_egui::egui::{Ui, vec2};
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
 use crate::app::ui::kit::widgets::{
-    choice, choice_row, drag_value, number, row, section, slider, toggle, with_tooltip,
+    drag_value, number, row, section, segment, setting_row, slider, toggle, with_tooltip,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
@@ -22,7 +22,7 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
         layers(ui, state, draft, intents);
         if state.session.has_paints() {
             let tip = "Keeps the designs' own colours, or fills everything with one colour.";
-            choice_row(ui, "Colours", tip, &mut draft.options.paint);
+            setting_row(ui, "Colours", tip, &mut draft.options.paint);
             if draft.options.paint == PaintRule::Own && draft.content != Some(ContentKind::Colours)
             {
                 paint_layers(ui, &mut draft.options.coats);
@@ -144,8 +144,8 @@ fn layers(ui: &mut Ui, state: &UiState, draft: &Project, intents: &mut Intents) 
 fn layer(ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool) {
     ui.add_enabled_ui(applies, |ui| {
         let size = vec2(ui.available_width(), 24.0);
-        // An element that the transition cannot show is greyed out; its visibility is kept.
-        let response = choice(ui, *on && applies, name, size);
+        // An element that the transition cannot show is greyed out; its setting does not change.
+        let response = segment(ui, *on && applies, name, size);
         if response.clicked() {
             *on = !*on;
         }

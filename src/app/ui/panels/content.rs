@@ -3,7 +3,9 @@
 
 use bevy_egui::egui::Ui;
 
-use crate::app::ui::kit::widgets::{choice_list, choice_row, drag_value, number, section, slider};
+use crate::app::ui::kit::widgets::{
+    drag_value, number, section, setting_menu_row, setting_row, slider,
+};
 use crate::content::{BlendSpace, ColourMix, FieldBlend};
 use crate::field::Metric;
 use crate::transition::FieldOptions;
@@ -16,7 +18,7 @@ const MIN_RANGE: f64 = 0.01;
 pub fn colours(ui: &mut Ui, mix: &mut ColourMix) {
     section(ui, "Colours", |ui| {
         let tip = "How fast one picture fades into the other.";
-        choice_list(ui, "Curve", tip, &mut mix.curve);
+        setting_menu_row(ui, "Curve", tip, &mut mix.curve);
         // The limits keep the two ends of the range at least `MIN_RANGE` apart.
         let from = drag_value(&mut mix.from, 0.0..=mix.to - MIN_RANGE, 0.005, 2);
         number(
@@ -40,14 +42,14 @@ pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
     section(ui, "Distance field", |ui| {
         blending(ui, &mut field.blend);
         let tip = "How distance is measured. The difference shows at corners.";
-        choice_list(ui, "Distance", tip, &mut field.metric);
+        setting_menu_row(ui, "Distance", tip, &mut field.metric);
         // Other metrics count whole cells, so the option (the outline's position within a cell)
         // applies only to the Euclidean metric.
         let is_euclidean = field.metric == Metric::Euclidean;
         let tip = "Position of the outline within a cell. Metrics other than Euclidean place it \
                    between cells.";
         ui.add_enabled_ui(is_euclidean, |ui| {
-            choice_row(ui, "Outline", tip, &mut field.boundary)
+            setting_row(ui, "Outline", tip, &mut field.boundary)
         });
         let cells = drag_value(&mut field.cells, 32..=4096, 4.0, 0);
         let tip = "Number of cells along the longer side. More cells give finer detail; softness \
@@ -62,7 +64,7 @@ pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
 /// Draws the options of the blend of two distance fields.
 fn blending(ui: &mut Ui, blend: &mut FieldBlend) {
     let tip = "Scale on which distances are blended.";
-    choice_row(ui, "Scale", tip, &mut blend.space);
+    setting_row(ui, "Scale", tip, &mut blend.space);
     ui.add_enabled_ui(blend.space == BlendSpace::Log, |ui| {
         let tip = "How gently the logarithm favours points near the outlines, in cells. Small: \
                    both outlines stay visible as a web. Large: like a linear scale. Only for the \

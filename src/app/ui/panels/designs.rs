@@ -12,8 +12,8 @@ use crate::app::ui::kit::icons;
 use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{
-    automatic_toggle, choice_row, drag_value, from_right, icon_button, number, row, secondary_text,
-    section, slider, toggle,
+    automatic_toggle, drag_value, from_right, icon_button, number, row, secondary_text, section,
+    setting_row, slider, toggle,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
@@ -46,7 +46,7 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
         }
         add(ui, project, intents);
         let tip = "How the designs are aligned before they are matched.";
-        choice_row(ui, "Align", tip, &mut draft.fit);
+        setting_row(ui, "Align", tip, &mut draft.fit);
         let style = state.session.segment_style();
         let entries = draft.designs.iter_mut().zip(&numbers).enumerate();
         for (index, (entry, &number)) in entries {

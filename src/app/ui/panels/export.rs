@@ -10,8 +10,8 @@ use crate::app::playback::player::landmarks;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
 use crate::app::ui::kit::widgets::{
-    choice_row, choices, choices_row, choices_where, drag_value, from_right, hint, icon_button,
-    primary_button, row, secondary_text, section, slider, toggle,
+    drag_value, from_right, hint, icon_button, primary_button, row, secondary_text, section,
+    segmented_control, segmented_control_where, segmented_row, setting_row, slider, toggle,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::content::ContentKind;
@@ -74,12 +74,12 @@ fn film(ui: &mut Ui, state: &UiState, draft: &mut Preferences, intents: &mut Int
     my_presets(ui, state, intents);
     let layout = &mut draft.film.layout;
     let tip = "Aspect ratio of the film. The stage shows the frame.";
-    choice_row(ui, "Aspect ratio", tip, &mut layout.aspect);
+    setting_row(ui, "Aspect ratio", tip, &mut layout.aspect);
     let tip = "Pixels along the shorter side. Choose a size, or type one.";
     row(ui, "Size", tip, |ui| {
         let custom = drag_value(&mut layout.lines, 16..=4320, 4.0, 0);
         let custom = ui.add_sized([48.0, CONTROL_HEIGHT], custom);
-        custom | choices(ui, &mut layout.lines, &STANDARD_SIZES)
+        custom | segmented_control(ui, &mut layout.lines, &STANDARD_SIZES)
     });
     let tip = "Empty space all around, as a fraction of the shorter side.";
     slider(ui, "Margin", tip, &mut layout.margin, 0.0..=0.3, false);
@@ -88,7 +88,7 @@ fn film(ui: &mut Ui, state: &UiState, draft: &mut Preferences, intents: &mut Int
     toggle(ui, "Captions", tip, &mut layout.has_captions);
     range(ui, state, &mut draft.film);
     let tip = "What happens at the end of the film.";
-    choice_row(ui, "At the end", tip, &mut draft.film.ending);
+    setting_row(ui, "At the end", tip, &mut draft.film.ending);
     file(ui, state, draft);
     format_advice(ui, state, draft);
 }
@@ -114,11 +114,11 @@ fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
     });
     let tip = "File type of the film.";
     row(ui, "File type", tip, |ui| {
-        choices_where(ui, &mut format, &pixels, is_available)
+        segmented_control_where(ui, &mut format, &pixels, is_available)
     });
     let tip = "Vector animations, which stay sharp at any size.";
     row(ui, "Vector", tip, |ui| {
-        choices_where(ui, &mut format, &vector, is_available)
+        segmented_control_where(ui, &mut format, &vector, is_available)
     });
     if format != before {
         draft.record_format = Some(format);
@@ -139,16 +139,16 @@ fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
     ];
     row(ui, "Frame rate", "Frames per second.", |ui| {
         let is_available = |fps: &u32| !is_gif || *fps <= MAX_GIF_FPS;
-        choices_where(ui, &mut draft.film.fps, &rates, is_available)
+        segmented_control_where(ui, &mut draft.film.fps, &rates, is_available)
     });
     let is_opaque = format == FilmFileFormat::OPAQUE;
     let mut is_transparent = draft.film.is_transparent && !is_opaque;
     row(ui, "Background", "Background of the film.", |ui| {
-        choices_where(ui, &mut is_transparent, &BACKGROUNDS, |transparent| {
+        segmented_control_where(ui, &mut is_transparent, &BACKGROUNDS, |transparent| {
             !transparent || !is_opaque
         })
     });
-    // MP4 cannot be transparent, but the setting is kept for other file types.
+    // MP4 cannot be transparent, but the setting remains unchanged for other file types.
     if !is_opaque {
         draft.film.is_transparent = is_transparent;
     }
@@ -163,7 +163,7 @@ fn preset(ui: &mut Ui, draft: &mut Preferences) {
     let mut preset = before;
     let presets = LayoutPreset::ALL.map(|p| (Some(p), p.name().title, p.name().sentence));
     let tip = "Sets aspect ratio, size, captions and file type for a common use.";
-    choices_row(ui, "Preset", tip, &mut preset, &presets);
+    segmented_row(ui, "Preset", tip, &mut preset, &presets);
     if let Some(preset) = preset.filter(|_| preset != before) {
         *layout = preset.layout();
         // Slides and posts accept MP4. For a web page, the content determines the file type, so
@@ -360,9 +360,9 @@ fn picture(ui: &mut Ui, draft: &mut Preferences, intents: &mut Intents) {
         ),
         (ImageScale::FourK, "4K", "3840 pixels along the longer side"),
     ];
-    choices_row(ui, "Size", tip, &mut draft.capture_scale, &scales);
+    segmented_row(ui, "Size", tip, &mut draft.capture_scale, &scales);
     let tip = "Background of the image.";
-    choices_row(
+    segmented_row(
         ui,
         "Background",
         tip,

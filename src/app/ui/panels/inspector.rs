@@ -48,8 +48,8 @@ fn sections(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     if state.map.is_shown {
         map::show(ui, state, intents);
     }
-    // A change of the method is not made in the copy. It is sent as an intent of its own, the same
-    // one that the keyboard shortcut sends.
+    // A change of the method is not made in the copy. It is sent as a separate intent, the same one
+    // that the keyboard shortcut sends.
     method::show(ui, state, project, intents);
     let mut draft = project.clone();
     if state.session.has_match_editor() && draft.warp != Some(WarpKind::None) {

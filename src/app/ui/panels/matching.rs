@@ -6,7 +6,7 @@ use bevy_egui::egui::Ui;
 use crate::app::input::editor_action::EditorAction;
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::widgets::{
-    automatic_toggle, choice_row, choices_row, hint, section, slider,
+    automatic_toggle, hint, section, segmented_row, setting_row, slider,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::content::ContentKind;
@@ -29,10 +29,10 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
         }
         if draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Solid) {
             let tip = "How many matches are tried: only the first, or several.";
-            choice_row(ui, "Quality", tip, &mut draft.options.quality);
+            setting_row(ui, "Quality", tip, &mut draft.options.quality);
             let tip = "Adjusts the motion where the film would fold or its outlines would meet. \
                        Applies to the best film only; the draft is shown at once.";
-            choice_row(ui, "Avoid collisions", tip, &mut draft.options.guard);
+            setting_row(ui, "Avoid collisions", tip, &mut draft.options.guard);
         }
         if has_mesh {
             density(ui, &mut draft.options.triangulation.edge_length);
@@ -68,11 +68,11 @@ fn rules(ui: &mut Ui, matching: &mut MatchSettings) {
         (false, "Free", "Shapes match in any rotation"),
         (true, "Keep upright", "Up stays up, as it must for letters"),
     ];
-    choices_row(ui, "Rotation", tip, &mut matching.keep_up, &rotations);
+    segmented_row(ui, "Rotation", tip, &mut matching.keep_up, &rotations);
     let tip = "How to treat a hole that exists in only one design.";
-    choice_row(ui, "Holes", tip, &mut matching.holes);
+    setting_row(ui, "Holes", tip, &mut matching.holes);
     let tip = "How to treat a part that exists in only one design.";
-    choice_row(ui, "Parts", tip, &mut matching.parts);
+    setting_row(ui, "Parts", tip, &mut matching.parts);
 }
 
 fn density(ui: &mut Ui, edge_length: &mut Option<f64>) {

@@ -6,7 +6,7 @@ use bevy_egui::egui::{DragValue, Ui};
 
 use crate::app::ui::kit::theme::CONTROL_HEIGHT;
 use crate::app::ui::kit::widgets::{
-    choice_list, choices, drag_value, number, row, section, toggle,
+    drag_value, number, row, section, segmented_control, setting_menu_row, toggle,
 };
 use crate::app::ui::ui_state::UiState;
 use crate::warp::{ArapOptions, ArapPath, FaceWeights};
@@ -26,7 +26,7 @@ const TURN_RANGE: RangeInclusive<i32> = -9..=9;
 pub fn show(ui: &mut Ui, state: &UiState, arap: &mut ArapOptions) {
     section(ui, "Rigid motion", |ui| {
         let tip = "How each triangle is interpolated from source to target (homotopy).";
-        choice_list(ui, "Interpolation", tip, &mut arap.homotopy);
+        setting_menu_row(ui, "Interpolation", tip, &mut arap.homotopy);
         weights(ui, &mut arap.weights);
         let tip = "On: swapping source and target gives the same film backwards. Off: only the \
                    source's triangles count, as in the paper.";
@@ -60,7 +60,7 @@ fn weights(ui: &mut Ui, weights: &mut FaceWeights) {
         if matches!(weights, FaceWeights::PerFace(_)) {
             options.push((weights.clone(), "Custom", "The weights in the project file"));
         }
-        choices(ui, weights, &options)
+        segmented_control(ui, weights, &options)
     });
 }
 
@@ -93,7 +93,7 @@ fn path(ui: &mut Ui, path: &mut ArapPath) {
         ];
         let chosen = ui.scope(|ui| {
             ui.set_max_width(width);
-            choices(ui, path, &options)
+            segmented_control(ui, path, &options)
         });
         let ArapPath::Anchor(vertex) = path else {
             return chosen.inner;

@@ -2,7 +2,9 @@
 
 use bevy_egui::egui::Ui;
 
-use crate::app::ui::kit::widgets::{choice_list, choice_row, drag_value, number, section, toggle};
+use crate::app::ui::kit::widgets::{
+    drag_value, number, section, setting_menu_row, setting_row, toggle,
+};
 use crate::warp::{
     FeatureTravel, LatticeOptions, LineOptions, PathOptions, RadialBasis, ScatteredOptions,
 };
@@ -18,7 +20,7 @@ const MAX_LEVELS: u32 = 7;
 /// Draws the section with the option of how pins and lines move from source to target.
 pub fn travel(ui: &mut Ui, travel: &mut FeatureTravel) {
     section(ui, "Pins and lines", |ui| {
-        choice_list(
+        setting_menu_row(
             ui,
             "Motion",
             "How pins and lines move from source to target.",
@@ -31,7 +33,7 @@ pub fn travel(ui: &mut Ui, travel: &mut FeatureTravel) {
 pub fn paths(ui: &mut Ui, paths: &mut PathOptions) {
     section(ui, "Boundary paths", |ui| {
         let tip = "How each point of the outline moves.";
-        choice_row(ui, "Motion", tip, &mut paths.course);
+        setting_row(ui, "Motion", tip, &mut paths.course);
     });
 }
 
@@ -39,7 +41,7 @@ pub fn paths(ui: &mut Ui, paths: &mut PathOptions) {
 pub fn lines(ui: &mut Ui, lines: &mut LineOptions) {
     section(ui, "Lines", |ui| {
         let tip = "How a line is interpolated between source and target.";
-        choice_row(ui, "Interpolation", tip, &mut lines.between);
+        setting_row(ui, "Interpolation", tip, &mut lines.between);
         let smoothness = drag_value(&mut lines.smoothness, 1e-4..=1.0, 0.001, 3);
         let tip = "How smoothly the plane follows the lines, in frame diagonals. Small values \
                    follow them to the pixel.";
@@ -57,7 +59,7 @@ pub fn lines(ui: &mut Ui, lines: &mut LineOptions) {
 pub fn scattered(ui: &mut Ui, scattered: &mut ScatteredOptions) {
     section(ui, "Points", |ui| {
         let tip = "How the influence of a pin spreads (basis function).";
-        choice_list(ui, "Influence", tip, &mut scattered.basis);
+        setting_menu_row(ui, "Influence", tip, &mut scattered.basis);
         match scattered.basis {
             RadialBasis::ThinPlate => {}
             RadialBasis::Gaussian => {

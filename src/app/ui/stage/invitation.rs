@@ -9,6 +9,7 @@ use bevy_egui::egui::{
 
 use crate::app::files::invitation;
 use crate::app::input::intent::Intent;
+use crate::app::tool_views::is_any_open;
 use crate::app::ui::gallery;
 use crate::app::ui::gallery::GalleryTextures;
 use crate::app::ui::kit::icons;
@@ -100,7 +101,7 @@ pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, inte
 /// Returns whether the card is shown. It is hidden while the match editor, the comparison or the
 /// map is open.
 fn is_visible(state: &UiState) -> bool {
-    let is_tool_open = state.editor.is_open || state.comparison.is_shown || state.map.is_shown;
+    let is_tool_open = is_any_open(&state.editor, &state.comparison, &state.map);
     state.invitation.is_shown() && !is_tool_open
 }
 

@@ -7,7 +7,7 @@ use crate::app::input::intent::Intent;
 use crate::app::ui::kit::icons::{self, Icon};
 use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, ThemePalette};
-use crate::app::ui::kit::widgets::{choices, icon_button, panel_frame, secondary_text};
+use crate::app::ui::kit::widgets::{icon_button, panel_frame, secondary_text, segmented_control};
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::measure::MapMeasure;
 use crate::settings::Choice;
@@ -33,7 +33,7 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
                 let mut layout = current.unwrap_or_default();
                 let before = layout;
                 ui.allocate_ui(vec2(LAYOUTS_WIDTH, CONTROL_HEIGHT), |ui| {
-                    choices(ui, &mut layout, &all.collect::<Vec<_>>());
+                    segmented_control(ui, &mut layout, &all.collect::<Vec<_>>());
                 });
                 if layout != before {
                     intents.push(Intent::SetMapLayout(layout));

@@ -9,7 +9,7 @@ use crate::app::ui::kit::easing_editor;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{
-    choice_button, from_right, intent_button, secondary_text, with_tooltip,
+    from_right, intent_button, secondary_text, segment_button, with_tooltip,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::settings::Choice;
@@ -117,7 +117,7 @@ fn timing_controls(ui: &mut Ui, state: &UiState, timing: &mut Timing, intents: &
         };
         let name = mode.name();
         let tip = format!("{} (L)", name.sentence);
-        if choice_button(ui, timing.play == mode, name.title, &tip, width) {
+        if segment_button(ui, timing.play == mode, name.title, &tip, width) {
             timing.play = mode;
         }
     }

@@ -46,7 +46,7 @@ pub(super) struct TransientPlacement {
     /// Position of its centroid in the design in which it is a seed shape.
     pub(super) place: DVec2,
     pub(super) life: TimeWindow,
-    /// Whether it grows in thickness within its outline, and not from a seed shape.
+    /// Whether the part grows in thickness within its outline instead of from a seed shape.
     pub(super) swells: bool,
 }
 
@@ -224,7 +224,7 @@ impl<'a> TransientScene<'a> {
     }
 
     /// Returns the cheapest placement and its cost; `None` if all cost at least `most`. Each
-    /// placement comes with its distance from the part's own position; `more` returns a further
+    /// placement is given with its distance from the part's own position; `more` returns a further
     /// cost of a placement.
     fn cheapest(
         &self,
@@ -234,8 +234,8 @@ impl<'a> TransientScene<'a> {
         most: f64,
     ) -> Option<(f64, TransientPlacement)> {
         let mut best = (most, None);
-        // The nearest come first: they cost least, and costlier ones are then abandoned early.
-        // Swelling comes last, because it takes longest to examine.
+        // The nearest placements are examined first: they have the lowest cost, so costlier ones
+        // are abandoned early. Swelling is last, because it takes longest to examine.
         births.sort_by(|(a, p), (b, q)| p.swells.cmp(&q.swells).then(a.total_cmp(b)));
         // Most parts can stay at their own position, so it is examined alone.
         let (own, others) = births.split_at(1);
@@ -315,8 +315,8 @@ impl<'a> TransientScene<'a> {
         most: f64,
     ) -> f64 {
         let mut long = 0.0;
-        // Every other sample time first: most collisions last long, so the count soon exceeds
-        // `most`.
+        // Every second sample time is examined first. Most collisions last long, so the count soon
+        // exceeds `most`.
         let last = self.steps.last();
         let steps = (0..=last).step_by(2).chain((1..=last).step_by(2));
         for step in steps {
@@ -377,7 +377,7 @@ impl<'a> TransientScene<'a> {
     fn carried(&self, speck: &TransientPart, life: TimeWindow, film: &Arap) -> DVec2 {
         let (side, here) = (speck.side, speck.ends[speck.side]);
         let begins = begins(speck, life);
-        // Only matched parts: they have the same order at each sample time.
+        // Only matched parts are compared, because they have the same order at each sample time.
         let then = &self.outlines[self.steps.before(begins)];
         let now = &self.outlines[[0, self.steps.last()][side]];
         let born = self.born.iter().filter(|born| born.speck.side == side);

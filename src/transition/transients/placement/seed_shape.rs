@@ -26,9 +26,9 @@ pub(super) struct TransientPart {
     area: f64,
     /// Centroids in source and target.
     pub(super) ends: [DVec2; 2],
-    /// Its rings in full size, relative to its centroid.
+    /// Rings of the part in full size, relative to its centroid.
     pub(super) rings: Vec<Vec<DVec2>>,
-    /// Diameter of its seed shape, as a fraction of its own.
+    /// Diameter of the seed shape, as a fraction of the part's diameter.
     pub(super) least: f64,
     swelling: SwellingProfile,
 }

@@ -158,7 +158,7 @@ impl Numbering {
         let angles = angles(mesh, fans, faces);
         let turning = |rim: &[u32]| -> f64 {
             let turns = rim.iter().map(|&fan| PI - angles[fan as usize]);
-            // Rounded to whole turns.
+            // The sum is rounded to whole turns.
             TAU * (turns.sum::<f64>() / TAU).round()
         };
         let turnings: Vec<f64> = rims.iter().map(|rim| turning(rim)).collect();

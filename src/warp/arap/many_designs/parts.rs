@@ -146,7 +146,8 @@ fn common_angles(family: &CompatibleFamily, masses: &[f64]) -> Vec<f64> {
             places.iter().map(|&p| p - centre).collect()
         })
         .collect();
-    // As complex numbers: the argument is the angle that rotates design k onto design j.
+    // The result is a complex number whose argument is the angle that rotates design k onto design
+    // j.
     let onto = |j: usize, k: usize| -> DVec2 {
         let places = centred[j].iter().zip(&centred[k]).zip(masses);
         places

@@ -1,4 +1,4 @@
-//! Replaces a blend that stays folded by the nearest blend without folds on the way to the design
+//! Replaces a blend that stays folded by the nearest blend without folds between it and the design
 //! with the largest weight.
 //!
 //! Guaranteed: the result has no folded face, because the designs have none. Not guaranteed: that

@@ -1,4 +1,5 @@
-//! Tests of the weights of faces, of bars and thin bridges, and of parts that exist in only one design.
+//! Tests of the weights of faces, of bars and thin bridges, and of parts that exist in only one
+//! design.
 
 use super::*;
 

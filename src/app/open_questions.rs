@@ -1,0 +1,26 @@
+//! Questions that the window may be asking the user.
+
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::Res;
+
+use crate::app::files::drop::DroppedDesign;
+use crate::app::persistence::autosave::Autosave;
+use crate::app::unsaved_question::UnsavedQuestion;
+
+/// Whether to save, where to put a dropped design, and whether to recover unsaved work.
+#[derive(SystemParam)]
+pub struct OpenQuestions<'w> {
+    unsaved: Res<'w, UnsavedQuestion>,
+    drop: Res<'w, DroppedDesign>,
+    autosave: Res<'w, Autosave>,
+}
+
+impl OpenQuestions<'_> {
+    /// Whether a question waits for an answer.
+    #[must_use]
+    pub fn any(&self) -> bool {
+        self.unsaved.text().is_some()
+            || self.drop.is_pending()
+            || self.autosave.recoverable().is_some()
+    }
+}
