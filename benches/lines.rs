@@ -145,7 +145,7 @@ fn max_and_mean(values: &[f64]) -> (f64, f64) {
 /// For each pixel: the distances between the expected positions and those of `placement`, first in
 /// the source, then in the target.
 ///
-/// `expected` consists of four planes with a value per pixel: x and y in the source, x and y in the
+/// `expected` consists of four blocks with a value per pixel: x and y in the source, x and y in the
 /// target.
 fn map_distances(placement: &Placement, expected: &[f64]) -> Vec<f64> {
     let mut distances = vec![f64::INFINITY; 2 * SIDE * SIDE];

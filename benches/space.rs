@@ -1,6 +1,6 @@
 //! Times the map of six outlines of 150 points each. For a new position of the marker, it times the
 //! weights, the blend of the designs as rigid parts, and the image of the blend as the window draws
-//! it. For the whole map, it times the measures on a grid of 64 × 64 positions.
+//! it. For the whole map, it times the measurement of the blends on a grid of 64 × 64 positions.
 //!
 //! `cargo bench --no-default-features --bench space`
 

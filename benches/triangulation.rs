@@ -9,7 +9,7 @@ use morphospace::geometry::DVec2;
 use morphospace::work::progress::Silent;
 use std::f64::consts::TAU;
 
-/// Boundary rings of the source and of the target; each design is a list of rings.
+/// Boundary loops of the source and of the target; each design is a list of loops.
 type RingPair = [Vec<Vec<DVec2>>; 2];
 
 fn main() {
@@ -63,7 +63,7 @@ fn comb(count: usize) -> Vec<DVec2> {
     points
 }
 
-/// An annulus: an outer ring, and a hole whose points are rotated by `turn` radians.
+/// An annulus: an outer circle, and a hole whose points are rotated by `turn` radians.
 fn annulus(count: usize, turn: f64) -> Vec<Vec<DVec2>> {
     let ring = |radius: f64, turn: f64, n: usize, direction: f64| -> Vec<DVec2> {
         (0..n)

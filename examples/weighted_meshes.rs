@@ -33,7 +33,7 @@ const SITES: [Vec2; 4] = [
     Vec2::new(-1.0, -1.0),
 ];
 
-/// The marker that the user drags, and the map from its position to the weights.
+/// The marker that the user drags, and the mapping from its position to the weights.
 #[derive(Component)]
 struct MapMarker {
     map: WeightMap,

@@ -204,8 +204,8 @@ pub enum StrokeJoin {
 
 impl StrokeStyle {
     /// Interpolates between the strokes at t = 0 and t = 1. The width changes linearly and the
-    /// paint as in [`Paint::mixed`]; the corner shape switches at t = 0.5. An end without a stroke
-    /// counts as the other stroke with width 0. Returns `None` if neither end has a stroke. `t` is
+    /// paint as in [`Paint::mixed`]; the corner shape switches at t = 0.5. If one of `ends` is
+    /// `None`, it counts as the other stroke with width 0. Returns `None` if both are. `t` is
     /// clamped to [0, 1].
     #[must_use]
     pub fn interpolated(ends: [Option<Self>; 2], t: f64) -> Option<Self> {

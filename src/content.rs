@@ -71,7 +71,7 @@ impl Content {
         }
     }
 
-    /// Returns the paint layers for changing them; `None` for a content in a single colour and for
+    /// Returns mutable access to the paint layers; `None` for a content in a single colour and for
     /// pictures.
     pub(crate) fn paint_layers_mut(&mut self) -> Option<&mut PaintLayerStack> {
         match self {

@@ -1,7 +1,7 @@
 //! Quality measures of meshes, films and design spaces, and the check that finds defects.
 //!
 //! - [`MeshReport`], of a compatible mesh: angles, Steiner points, boundary stretch, and distortion
-//!   of the map between its two embeddings
+//!   of the mapping between its two embeddings
 //! - [`FilmReport`], of a transition sampled over t: folds, self-crossings, distortion beyond that
 //!   of the target, area, perimeter, turning, pieces, holes, and the vertices' travel and
 //!   acceleration without the rigid motion; [`FilmReport::series`] gives each quantity against t

@@ -1,10 +1,11 @@
 //! Numerical methods: linear algebra, L-BFGS minimisation (`lbfgs`) and the assignment problem
 //! (`assignment`). No other module uses `faer`.
 //!
-//! [`Cholesky`] factors a sparse symmetric positive definite matrix once and then solves with it in
-//! every frame. [`PatternCholesky`] is for sparse matrices whose values change while the pattern of
-//! their entries stays the same, [`DenseLu`] is for small dense systems that are factored in every
-//! frame, and [`symmetric_eigen`] is for the eigenvectors of small symmetric matrices.
+//! [`Cholesky`] factors a sparse symmetric positive definite matrix once and then solves with it
+//! for every frame of an animation. [`PatternCholesky`] is for sparse matrices whose values change
+//! while the pattern of their entries stays the same, [`DenseLu`] is for small dense systems that
+//! are factored for every frame of an animation, and [`symmetric_eigen`] is for the eigenvectors of
+//! small symmetric matrices.
 //!
 //! A [`Cholesky`] uses a fill-reducing permutation (approximate minimum degree) and a simplicial
 //! LLᵀ factorisation, or a supernodal one for large systems. [`Cholesky::solve_ordered`] works in
@@ -182,7 +183,8 @@ impl Cholesky {
         run_cancellable(progress, move || Self::factor(&matrix))
     }
 
-    /// Factors the matrix; `supernodal_from` selects a simplicial or a supernodal factorisation.
+    /// Factors the matrix; `supernodal_from` selects a simplicial factorisation (column by column)
+    /// or a supernodal one (in dense blocks).
     fn factored(
         matrix: &SymmetricMatrix,
         supernodal_from: SupernodalThreshold,
@@ -278,7 +280,8 @@ impl Cholesky {
             return;
         };
         let stack = MemStack::new(&mut workspace.0);
-        // The library's own solve would permute to elimination order and back.
+        // The library's own solve would permute the right-hand side to elimination order, and the
+        // solution back.
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(symbolic) => {
                 SimplicialLltRef::new(symbolic, &self.values).solve_in_place_with_conj(

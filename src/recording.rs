@@ -73,7 +73,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Recording(Arc<RecordingData>);
 
-/// Data of a recording, shared by its clones.
+/// Data of a recording, shared by all clones of the recording.
 #[derive(Debug)]
 struct RecordingData {
     warp: Arc<dyn Warp>,
@@ -136,7 +136,7 @@ impl Recording {
 }
 
 impl Recording {
-    /// Sets the positions in a placement of the warp to those at `t` and returns true. If `t` is
+    /// Writes the recorded positions at `t` to a placement of the warp and returns true. If `t` is
     /// outside [0, 1], the placement stays unchanged and the result is false.
     pub(crate) fn place(&self, t: f64, placement: &mut Placement) -> bool {
         let is_within = (0.0..=1.0).contains(&t);
@@ -154,7 +154,8 @@ impl RecordingData {
         index.min(self.intervals.len() - 1)
     }
 
-    /// Writes the positions at `t` of every moving channel to `placement`; `t` must be in [0, 1].
+    /// Writes the positions at `t` to each position list of `placement` that the warp moves; `t`
+    /// must be in [0, 1].
     fn place(&self, t: f64, placement: &mut Placement) {
         let interval = &self.intervals[self.interval_at(t)];
         let mut first_block = 0;

@@ -135,8 +135,8 @@ pub enum MorphSystems {
     /// triggers [`BuildFailed`] for each failed one. Turns a [`StageTransition`] into a [`Morph`].
     Build,
     /// Moves each [`Morph`] to the t of its [`Blend`]. Systems that run later see the frame at this
-    /// t. If the graphics card plays the morph, the CPU computes its vertices only when they are
-    /// read.
+    /// t. If the graphics card evaluates the morph from a recording, the CPU computes its vertices
+    /// only when they are read.
     Solve,
     /// Updates render meshes, material uniforms and cameras.
     Draw,
@@ -201,8 +201,8 @@ fn add_drawing(app: &mut App) {
     .add_observer(part_assembly::despawn_parts)
     .add_systems(
         Update,
-        // The systems are chained, so Bevy applies the commands of one before the next runs.
-        // Parts are therefore drawn in the frame in which they are spawned.
+        // The systems are chained, so Bevy applies the commands of one before the next runs. Render
+        // parts are therefore drawn in the frame in which they are spawned.
         (
             part_assembly::spawn_parts,
             (

@@ -1,32 +1,32 @@
-//! Transitions between two designs, and the frames of a transition at any t.
+//! Transitions between two designs, and a [`Frame`] that shows a transition at any t.
 //!
 //! A transition consists of a warp, which moves points, and a content: solid shapes, distance
-//! fields or pictures. Everything that can fail fails in [`Transition::build`]; a [`Frame`] then
-//! moves to any t without allocating. A frame holds only the placement of the vertices and the t at
-//! which the contents of both designs are mixed. The stage, a Bevy plugin, evaluates frames on the
-//! GPU; export and tests evaluate them on the CPU through [`Frame::figure`]. Both thus share one
-//! definition of a frame and can be compared.
+//! fields or pictures. All errors occur in [`Transition::build`]; a [`Frame`] then moves to any t
+//! without allocating. A frame holds only the placement of the vertices and the t at which the
+//! contents of both designs are mixed. The stage, a Bevy plugin, draws frames on the GPU; export
+//! and tests evaluate them on the CPU through [`Frame::figure`].
 //!
-//! A *piece* is a connected part of the match of two designs. Usually it is a part of the source
-//! matched with a part of the target, or an unmatched part. A split part has several pieces.
+//! A *piece* moves as a whole. Usually it is a part of the source matched with a part of the
+//! target, or an unmatched part. A part that is split belongs to several pieces.
 //!
-//! - `options`, `spec`: the inputs of a transition; `common_frame`: placing designs in one frame
+//! - `options`, `spec`: the inputs of a transition; `common_frame`: places designs in one
+//!   coordinate system
 //! - `build`: from a specification to a transition, through `solids` (rigid parts),
 //!   `boundary_paths`, or `plane` (warps of the plane, which follow `plane_features`)
 //! - `drawing_pair`: outlines and paint of both designs; `piece_coating`: paint layers of the
 //!   pieces; `distance_fields`: fields of whole designs and of their layers
-//! - `search`: candidate matches of each piece, rated by their motion
+//! - `search`: tries several matches of each piece and rates them by their motion
 //! - `separation`: unpairs pieces that would collide, as found by `collisions`
-//! - `rigid_solution`: the solved motion of rigid parts; `transients`: position and time window of
-//!   unmatched parts and holes
+//! - `rigid_solution`: the solved motion of rigid parts; `transients`: positions and time windows
+//!   of unmatched parts and holes
 //! - `stiffening`: removes folds; `collision_guard`: moves shapes aside that would collide;
-//!   `arap_build`: size limits of meshes
+//!   `arap_build`: limits the size of meshes
 //! - `cached_match`, `solution_cache`: solved matches stored in documents
 //! - `part_time`, `part_clocks`: time windows of parts
 //! - `note`: deviations from the request, and suggestions
 //! - `transition`, `any_warp`, `method`: the transition, its warp and its method
-//! - `frame`, `lazy_placement`: frames and their deferred placement; `recording`, `proof`:
-//!   recordings and checks at every t
+//! - `frame`, `lazy_placement`: frames, whose vertices are placed only when they are read;
+//!   `recording`, `proof`: recordings and checks at every t
 //! - `sequence`: several transitions in a row; `blend_path`: paths between blends of many designs
 //! - `style`: colours; `paint_layer_options`: fading and stacking order
 

@@ -2,12 +2,10 @@
 //!
 //! There are six kinds ([`WarpKind`]): rigid parts, boundary paths, line pairs, scattered points,
 //! B-spline lattices, and no motion at all. A [`Warp`] is built once, which can fail. It creates
-//! [`Placer`]s, which evaluate it for one frame after another. A placer owns the memory for a frame
-//! and cannot fail. Warps are independent of the content they carry (solids, distance fields or
-//! pictures).
+//! [`Placer`]s, which evaluate it at one t after another. A placer owns its memory and cannot fail.
+//! Warps are independent of the content they carry (solids, distance fields or pictures).
 //!
-//! In this module "the frame" is the visible rectangle of the plane, whereas "a frame" is one
-//! image of the animation.
+//! The frame is the visible rectangle of the plane, not an image of the film.
 
 mod arap;
 mod elementary;
@@ -50,8 +48,8 @@ use std::sync::Arc;
 
 /// A triangle mesh placed in the frame at one t, with texture coordinates in both designs.
 ///
-/// This is the interface between warps and contents. The three vertex lists have the same
-/// length.
+/// This is the interface between warps and contents. The lists `in_frame`, `in_source` and
+/// `in_target` hold one point per vertex.
 #[derive(Clone, Debug)]
 pub struct Placement {
     /// Vertex indices of each face; the same at every t.
@@ -76,7 +74,8 @@ impl Placement {
     }
 }
 
-/// Features that a warp fails to map to their positions in the designs.
+/// Summary of the features (point pairs and sample points of line pairs) that a warp does not map
+/// to their positions in the designs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MissedFeatures {
     /// Number of missed features; every sample point of a line counts as one.

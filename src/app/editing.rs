@@ -1,10 +1,11 @@
-//! The match editor: shows which points of the two designs correspond, and lets the user change
-//! that.
+//! The match editor: shows which points of the two designs correspond, and lets the user change the
+//! correspondence.
 //!
-//! A [`sheet::MatchSheet`] holds what is shown, [`editor::MatchEditor`] the tool, selection and
-//! views, and an [`EditorAction`](crate::app::input::editor_action::EditorAction) is one action of
-//! the user. Actions use coordinates of the frame that both designs are placed in; the project
-//! stores their results in each design's own coordinates. Nothing here draws.
+//! A [`sheet::MatchSheet`] holds the contents of the editor, [`editor::MatchEditor`] the tool,
+//! selection and views, and an [`EditorAction`](crate::app::input::editor_action::EditorAction) is
+//! one action of the user. Actions use coordinates of the common frame in which both designs are
+//! placed; the project stores their results in each design's own coordinates. The drawing code is
+//! elsewhere.
 
 pub mod actions;
 pub mod editor;

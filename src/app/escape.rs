@@ -31,7 +31,7 @@ pub fn toggle_fullscreen(
     }
 }
 
-/// Questions and modes that handle Esc before anything else.
+/// Open questions and the talk, which handle Esc before anything else.
 #[derive(SystemParam)]
 pub struct EscapeBlockers<'w> {
     /// Questions to the user; while one is open, Esc answers it.

@@ -12,7 +12,7 @@ use crate::app::map::map_view::MapView;
 use crate::app::open_questions::OpenQuestions;
 use crate::app::presentation::presenter::Presentation;
 
-/// Modes of the window that change the effect of a key.
+/// State of the application that changes the effect of a key.
 #[derive(SystemParam)]
 pub struct KeyContext<'w> {
     focus: Res<'w, KeyboardFocus>,
@@ -35,8 +35,8 @@ impl KeyContext<'_> {
 
 /// Turns key presses into intents, but not while a text field or menu has the keyboard focus.
 ///
-/// The state of the modifiers follows the same messages in order: when frames are slow, Shift may
-/// be released before the frame that handles Shift+S.
+/// The state of the modifier keys is read from the same messages in the same order. If screen
+/// updates are slow, Shift may already be released when the key press of Shift+S is handled.
 pub fn read_keys(
     mut inputs: MessageReader<KeyboardInput>,
     mut focus_lost: MessageReader<KeyboardFocusLost>,
@@ -46,12 +46,12 @@ pub fn read_keys(
     mut intents: MessageWriter<Intent>,
 ) {
     if focus_lost.read().count() > 0 {
-        // A key released in another window sends no message here.
+        // If a key is released while another window has the focus, this window receives no message.
         *held = KeyModifiers::default();
     }
     for input in inputs.read() {
-        // Modifiers are followed even while a text field has the focus, because those held when it
-        // loses the focus still count.
+        // The state of the modifiers is updated even while a text field has the focus, because a
+        // modifier may still be held when the text field loses the focus.
         held.update(input);
         let key_intent = map.intent(input, *held, context.editor.is_open);
         if let Some(intent) = key_intent.filter(|intent| context.allows(intent)) {

@@ -1,5 +1,5 @@
 //! Bevy plugin that registers every system needing neither a window nor a graphics card, and fixes
-//! the order in which they run each frame.
+//! the order in which these systems run.
 
 use bevy::prelude::*;
 
@@ -133,12 +133,12 @@ fn init_resources(app: &mut App) {
         .insert_resource(CaptureFolder::choose(None));
 }
 
-/// Systems that act on intents, in such an order that each sees the results of those that it
-/// depends on: a project is opened before it is played.
+/// Systems that act on intents. Each runs after the systems whose results it needs; for example, a
+/// project is opened before it is played.
 fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     (
-        // Before all readers of intents, so that closing the window takes effect in the same frame,
-        // as a key press does.
+        // Before all readers of intents, so that a request to close the window takes effect in the
+        // same screen update, as a key press does.
         unsaved_question::read_close_requests,
         // Before anything is opened or shown, so that Esc acts on what was open when it was
         // pressed.
@@ -160,8 +160,8 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
         )
             .chain(),
         (project_systems(), analysis_systems()).chain(),
-        // Advance t before intents start or move it. Otherwise a film that starts now would at once
-        // advance by the time since the last frame.
+        // Advance t before intents start or change its motion. Otherwise a film that starts now
+        // would at once advance by the time since the last screen update.
         (player::advance, presenter::begin, player::apply).chain(),
         (stage_sync::select_segment, presenter::hide_pointer).chain(),
         (

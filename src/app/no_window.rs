@@ -25,14 +25,15 @@ pub enum NoWindowError {
     Graphics,
 }
 
-/// Beginnings of the two panic messages, as of Bevy 0.19, and the reason that each stands for.
+/// Beginnings of the messages of two panics in Bevy 0.19 (no display, no graphics driver), each
+/// with the error that replaces the panic.
 const PANICS: [(&str, NoWindowError); 2] = [
     ("Failed to build event loop", NoWindowError::Display),
     ("Unable to find a GPU", NoWindowError::Graphics),
 ];
 
 impl NoWindowError {
-    /// Reason that the panic's message stands for; `None` for all panics but these two.
+    /// Error for a panic about a missing display or graphics driver; `None` for any other panic.
     fn of(panic: &dyn Any) -> Option<Self> {
         let text = match panic.downcast_ref::<String>() {
             Some(text) => text.as_str(),

@@ -7,7 +7,8 @@ use crate::app::files::drop::DroppedDesign;
 use crate::app::persistence::autosave::Autosave;
 use crate::app::unsaved_question::UnsavedQuestion;
 
-/// Whether to save, where to put a dropped design, and whether to recover unsaved work.
+/// The questions that may be open: whether to save, where to put a dropped design, and whether to
+/// recover unsaved work.
 #[derive(SystemParam)]
 pub struct OpenQuestions<'w> {
     unsaved: Res<'w, UnsavedQuestion>,

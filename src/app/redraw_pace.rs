@@ -1,7 +1,7 @@
 //! Chooses how often the window redraws: continuously while something moves, at intervals while
 //! work is in progress, and otherwise not at all. This saves battery, for example during a talk.
 //!
-//! Input and other system events wake the window at any rate.
+//! Input and other system events always wake the window.
 
 use std::time::Duration;
 
@@ -37,9 +37,9 @@ use crate::app::session::state::Session;
 use crate::app::view::filmstrip::Filmstrip;
 use crate::stage::PipelinesReady;
 
-/// Intervals, shortest first, at which the progress of background work may be redrawn. Where frames
-/// are slow, as with software rendering, a longer interval leaves time for the work. The choices
-/// are few, because each change of the update mode costs a frame (heuristic).
+/// Intervals, shortest first, at which the progress of background work may be redrawn. If drawing
+/// is slow, as with software rendering, a longer interval leaves time for the work. The choices are
+/// few, because each change of the update mode costs a redraw (heuristic).
 const PROGRESS_INTERVALS: [Duration; 4] = [
     Duration::from_millis(50),
     Duration::from_millis(100),
@@ -55,12 +55,12 @@ const CLOCK_INTERVAL: Duration = Duration::from_millis(500);
 /// time. Without one, winit keeps the previous time, which has passed, and wakes continuously.
 const REST_INTERVAL: Duration = Duration::from_secs(3600);
 
-/// Number of frames to draw after an event until all its effects are on screen: panels are drawn
-/// after the other systems, their intents are applied one frame later and visible in the next, and
-/// the renderer lags another frame and reports missing pipelines one frame later still.
+/// Number of screen updates after an event until all its effects are on screen: panels are drawn
+/// after the other systems, their intents are applied one update later and visible in the next, and
+/// the renderer lags another update and reports missing pipelines one update later still.
 const SETTLING_FRAMES: u8 = 6;
 
-/// Number of frames to draw after an event while a transition is being built: fewer, to leave time
+/// Number of screen updates after an event while a transition is being built: fewer, to leave time
 /// for the build (heuristic).
 const SETTLING_FRAMES_AT_WORK: u8 = 2;
 
@@ -75,24 +75,24 @@ impl Default for PanelRepaint {
     }
 }
 
-/// Reasons for and against redrawing the window, from which its update mode follows.
+/// Conditions from which the update mode of the window follows: how often it redraws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RedrawPace {
     /// Whether something moves, or the effects of an event are not all on screen yet.
     pub is_moving: bool,
-    /// Whether background work is in progress, or something will change by itself, such as a
-    /// notice.
+    /// Whether background work is in progress, or something will change by itself, such as a notice
+    /// that disappears.
     pub is_waiting: bool,
     /// Whether the speaker's window shows its clock.
     pub has_clock: bool,
-    /// Whether the window is minimised or covered, and nothing else needs its frames.
+    /// Whether the window is minimised or covered, and nothing else requires it to be redrawn.
     pub is_hidden: bool,
-    /// Time that the last frame took, without waiting.
+    /// Time that the last screen update took, without waiting.
     pub frame: Duration,
 }
 
 impl RedrawPace {
-    /// Update mode of the window until the next frame.
+    /// Update mode of the window until the next screen update.
     #[must_use]
     pub fn update_mode(self) -> UpdateMode {
         match self {
@@ -112,8 +112,8 @@ impl RedrawPace {
         }
     }
 
-    /// Interval for redrawing progress: at least twice the frame duration, so that at least half
-    /// the time is left for the background work.
+    /// Interval for redrawing progress: at least twice the time per screen update, so that at least
+    /// half the time is left for the background work.
     fn progress_interval(self) -> Duration {
         let [.., longest] = PROGRESS_INTERVALS;
         let is_long_enough = |interval: &Duration| *interval >= self.frame * 2;
@@ -153,7 +153,7 @@ pub struct RedrawInputs<'w, 's> {
 }
 
 impl RedrawInputs<'_, '_> {
-    /// Whether something on the stage moves or awaits a rendered frame.
+    /// Whether something on the stage moves, or a rendered image is awaited.
     fn is_stage_moving(&self) -> bool {
         self.playback.is_playing()
             || (self.preferences.panels && self.preferences.times)
@@ -219,18 +219,18 @@ pub struct RedrawMessages<'w, 's> {
     requests: Option<ResMut<'w, Messages<RequestRedraw>>>,
 }
 
-/// State that [`set_redraw_pace`] carries from frame to frame.
+/// State that [`set_redraw_pace`] keeps from one call to the next.
 #[derive(SystemParam)]
 pub struct RedrawState<'s> {
-    /// Number of frames still to draw until the effects of the last event are on screen.
+    /// Number of screen updates still to draw until the effects of the last event are on screen.
     settling: Local<'s, u8>,
     /// Whether the main window is covered by other windows.
     is_covered: Local<'s, bool>,
-    /// Duration of the last frame that was not preceded by waiting.
+    /// Duration of the last screen update that was not preceded by waiting.
     frame: Local<'s, Duration>,
 }
 
-/// Sets the update mode for the next frame.
+/// Sets the update mode that applies until the next screen update.
 pub fn set_redraw_pace(
     inputs: RedrawInputs,
     mut messages: RedrawMessages,
@@ -248,12 +248,12 @@ pub fn set_redraw_pace(
         (true, false) => SETTLING_FRAMES,
         (false, _) => state.settling.saturating_sub(1),
     };
-    // In continuous mode the time between two frames includes no waiting.
+    // In continuous mode the time between two screen updates includes no waiting.
     if settings.focused_mode == UpdateMode::Continuous {
         *state.frame = time.delta();
     }
-    // While a transition is being built and frames are slow, panels jump to their end position
-    // instead of sliding, which leaves more time for the build.
+    // While a transition is being built and screen updates are slow, panels jump to their end
+    // position instead of sliding, which leaves more time for the build.
     let skips_sliding = is_building && *state.frame * 2 > PROGRESS_INTERVALS[0];
     if skips_sliding && let Some(requests) = &mut messages.requests {
         requests.clear();
@@ -264,8 +264,8 @@ pub fn set_redraw_pace(
     if let Some(last) = messages.occlusions.read().filter(is_stage_window).last() {
         *state.is_covered = last.occluded;
     }
-    // Frames of a hidden window are still needed while the speaker's window is open or an autosave
-    // is pending.
+    // A hidden window must still be updated while the speaker's window is open or an autosave is
+    // pending.
     let is_needed = inputs.speaker.is_open() || inputs.autosave.is_behind();
     let pace = RedrawPace {
         is_moving: *state.settling > 0
@@ -278,7 +278,7 @@ pub fn set_redraw_pace(
     };
     let mode = pace.update_mode();
     // The mode is the same with and without focus, so that the film continues while another window
-    // is used. It is compared first, because writing it reports a change.
+    // is used. The modes are compared first, because writing them reports a change.
     if (settings.focused_mode, settings.unfocused_mode) != (mode, mode) {
         (settings.focused_mode, settings.unfocused_mode) = (mode, mode);
     }
@@ -288,7 +288,7 @@ pub fn set_redraw_pace(
 fn is_minimised(window: Entity) -> bool {
     WINIT_WINDOWS.with_borrow(|windows| {
         let window = windows.get_window(window);
-        // `None` on systems that do not report it.
+        // `None` on systems that do not report whether a window is minimised.
         window.and_then(|w| w.is_minimized()).unwrap_or(false)
     })
 }

@@ -1,21 +1,23 @@
 //! Keeps the window within the screen it opens on: sets its initial size, its minimum size, and its
 //! scale factor.
 //!
-//! The panels need [`MIN_SIZE`] points. On a screen that has fewer, such as 1280 × 720 pixels at
-//! scale factor 2, points are made smaller than the system asks for, so that nothing is cut off.
+//! The panels need [`MIN_SIZE`] logical pixels (points). On a screen that has fewer, such as 1280 ×
+//! 720 physical pixels at scale factor 2, points are made smaller than the system asks for, so that
+//! nothing is cut off.
 
 use bevy::prelude::{Has, Local, Query, Single, UVec2, Vec2, With};
 use bevy::window::{Monitor, OnMonitor, PrimaryMonitor, PrimaryWindow, Window, WindowMode};
 
-/// Minimum size of the window, in points: large enough for the list of keys, the largest panel.
+/// Minimum size of the window, in logical pixels: large enough for the list of keys, the largest
+/// panel.
 pub const MIN_SIZE: Vec2 = Vec2::new(960.0, 540.0);
 
 /// Width and height of the screen that the window leaves free when it opens, in logical pixels:
 /// room for a title bar and a task bar, or for a dock at the side.
 const MARGIN: Vec2 = Vec2::splat(80.0);
 
-/// Minimum scale factor, in pixels per point (heuristic: text of 14 points is then 7 pixels high,
-/// just legible).
+/// Minimum scale factor, in physical pixels per logical pixel (heuristic: text of 14 logical pixels
+/// is then 7 physical pixels high, just legible).
 const MIN_SCALE: f32 = 0.5;
 
 /// Screen for which the window's sizes are computed.
@@ -33,7 +35,8 @@ impl ScreenFit {
         (self.screen_px.as_vec2() - MARGIN * self.system_scale).max(Vec2::ONE)
     }
 
-    /// Pixels per point: as the system asks for, or less if the panels would not fit.
+    /// Physical pixels per logical pixel: as the system asks for, or fewer if the panels would not
+    /// fit.
     fn scale(&self) -> f32 {
         let fitting = (self.free_px() / MIN_SIZE).min_element();
         self.system_scale.min(fitting.max(MIN_SCALE))
@@ -44,8 +47,8 @@ impl ScreenFit {
         MIN_SIZE * self.scale() / self.system_scale
     }
 
-    /// Sets the scale factor, minimum size and size of a window. When it opens (`is_first`), it
-    /// leaves the margin free; later it may be as large as the screen.
+    /// Sets the scale factor, minimum size and size of a window. A window that opens (`is_first`)
+    /// leaves the margin free; later the window may be as large as the screen.
     fn apply(&self, window: &mut Window, is_first: bool) {
         let is_smaller = self.scale() < self.system_scale;
         let scale = is_smaller.then_some(self.scale());
@@ -99,7 +102,7 @@ mod tests {
     use super::*;
     use bevy::window::WindowResolution;
 
-    /// New window of 1280 × 720 points, as the system creates it, fitted to a screen.
+    /// New window of 1280 × 720 logical pixels, as the system creates it, fitted to a screen.
     fn fitted_window(screen_px: UVec2, system_scale: f32) -> Window {
         let size = Vec2::new(1280.0, 720.0) * system_scale;
         let mut resolution = WindowResolution::new(size.x as u32, size.y as u32);
@@ -159,7 +162,7 @@ mod tests {
         let window = fitted_window(UVec2::new(1280, 720), 1.0);
         assert_eq!(window.resolution.scale_factor_override(), None);
         let window = fitted_window(UVec2::new(1280, 720), 2.0);
-        // The screen's 720 pixels of height, less the margin of 160, hold 540 points.
+        // The screen's 720 pixels of height, less the margin of 160, hold 540 logical pixels.
         let scale = (720.0 - 160.0) / 540.0;
         assert!((window.scale_factor() - scale).abs() < 1e-5);
     }

@@ -2,7 +2,7 @@
 
 use bevy::prelude::{Resource, UVec2, Vec2};
 
-/// Size of the window when it opens, in points.
+/// Size of the window when it opens, in logical pixels.
 pub const INITIAL_SIZE: UVec2 = UVec2::new(1280, 720);
 
 /// Area of the window that the panels leave free for the stage, in logical pixels.

@@ -70,7 +70,8 @@ fn stage<Of: Component>(
 ) {
     match (transition, staged.single()) {
         (Some(new), Ok((_, StageTransition(old))))
-            // Clones share their data. Inserting a clone would upload the same meshes again.
+            // Clones of a transition share their data; inserting a clone would upload the same
+            // meshes again.
             if new.is_same(old) => {}
         (Some(new), Ok((entity, _))) => {
             let new = (StageTransition(new.clone()), blend);
@@ -95,7 +96,7 @@ pub fn stage_t(
 ) {
     let t = session.segment_t(playback.t());
     for mut blend in &mut blends {
-        // Writing to a blend triggers a solve even if t is the same.
+        // Any write to a blend triggers a solve of its warp, even if t is the same.
         if blend.t != t {
             blend.t = t;
         }

@@ -7,7 +7,7 @@ use crate::app::compare::comparison::Comparison;
 use crate::app::editing::editor::MatchEditor;
 use crate::app::map::map_view::MapView;
 
-/// All these views.
+/// All views that the user opens in place of the stage or to its right.
 #[derive(SystemParam)]
 pub struct ToolViews<'w> {
     /// The match editor.
@@ -19,14 +19,14 @@ pub struct ToolViews<'w> {
 }
 
 impl ToolViews<'_> {
-    /// Whether one of these views is open.
+    /// Whether the match editor, the comparison or the map is open.
     #[must_use]
     pub fn is_any_open(&self) -> bool {
         is_any_open(&self.editor, &self.comparison, &self.map)
     }
 }
 
-/// Whether one of these views is open.
+/// Whether the match editor, the comparison or the map is open.
 #[must_use]
 pub const fn is_any_open(editor: &MatchEditor, comparison: &Comparison, map: &MapView) -> bool {
     editor.is_open || comparison.is_shown || map.is_shown

@@ -139,8 +139,8 @@ pub fn answer(
                         // Saving may open a dialog and take long; the intent waits for the result.
                         (UnsavedKind::Changes, UnsavedAnswer::Save) => next.push(Intent::Save),
                         (UnsavedKind::Changes, _) => {
-                            // Without this, the intent would raise the same question when it is
-                            // sent again.
+                            // Otherwise the intent would raise the same question when it is sent
+                            // again.
                             session.mark_saved();
                             next.extend(question.take_if_resolved(UnsavedKind::Changes));
                         }

@@ -100,7 +100,7 @@ fn program(options: AppOptions) -> App {
 }
 
 /// Handles Ctrl-C and the system's request to quit. Wakes the window, because an idle window runs
-/// no frame in which it would notice the request.
+/// no systems and so would not notice the request.
 fn handle_termination() {
     let handler_result = ctrlc::set_handler(|| {
         TerminalCtrlCHandlerPlugin::gracefully_exit();
@@ -161,13 +161,14 @@ fn window(starts_talk: bool) -> WindowPlugin {
         primary_window: Some(Window {
             title: "Morphospace".to_owned(),
             name: Some("morphospace".to_owned()),
-            // Set here and not by a system, so that the very first frame is full screen.
+            // Set here and not by a system, so that the window opens in full screen.
             mode: if starts_talk {
                 fullscreen_mode()
             } else {
                 WindowMode::Windowed
             },
-            // In points; `fit_to_screen` makes both smaller on a small screen.
+            // The initial and the minimum size are in logical pixels; `fit_to_screen` makes them
+            // smaller on a small screen.
             resolution: INITIAL_SIZE.into(),
             resize_constraints: WindowResizeConstraints {
                 min_width: MIN_SIZE.x,
@@ -199,8 +200,8 @@ impl Plugin for WindowPlugins {
             .init_resource::<filmstrip::Filmstrip>()
             .init_resource::<speaker_window::SpeakerWindow>()
             .add_systems(Startup, spawn_cameras)
-            // In `Last`, because work started in this frame decides how soon the next frame is
-            // drawn.
+            // In `Last`, because work started in this screen update decides how soon the next one
+            // follows.
             .add_systems(Last, redraw_pace::set_redraw_pace)
             .add_systems(
                 Update,
@@ -226,7 +227,7 @@ impl Plugin for WindowPlugins {
             .add_systems(
                 PostUpdate,
                 // After the stage's camera has been placed and before transforms propagate;
-                // otherwise the comparison would lag one frame behind.
+                // otherwise the comparison would lag one screen update behind.
                 stage_camera::place_comparison_camera.before(TransformSystems::Propagate),
             )
             .add_plugins(HierarchyPropagatePlugin::<RenderLayers>::new(PostUpdate))

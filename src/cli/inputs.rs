@@ -48,9 +48,9 @@ pub(super) struct OpenedPair {
     pub loaded: LoadedProject,
     /// The built transition.
     pub transition: Transition,
-    /// Time for reading and importing the designs.
+    /// Measured time for reading and importing the designs.
     pub import_time: Duration,
-    /// Time for building the transition.
+    /// Measured time for building the transition.
     pub build_time: Duration,
 }
 

@@ -75,7 +75,8 @@ fn write(args: &NewArgs) -> Result<(), CliError> {
         let available = TransitionSpec::available(spec.method, &spec.source, &spec.target);
         available.map_err(CliError::failed)?;
     }
-    // From here on a signal only cancels, so that it cannot interrupt the writing of the file.
+    // From here on, a signal cancels the work instead of ending the program, so that it cannot
+    // interrupt the writing of the file.
     let terminal = Terminal::new();
     if args.film || args.method.is_auto() {
         let sequence = args.method.build_all(&mut loaded, &terminal)?;

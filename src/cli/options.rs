@@ -1,7 +1,7 @@
 //! Flags for the options of a project, shared by all subcommands that build transitions.
 //!
-//! Flags that are not given leave the project unchanged. Names of values are those of the project
-//! file, from the same tables.
+//! Flags that are not given leave the project unchanged. The names of values are those in project
+//! files; both come from the same tables.
 //!
 //! - `method`: method, warp and content, pins and lines
 //! - `appearance`: import, distance fields, colours, timing and style

@@ -398,7 +398,7 @@ fn write_frames(
         None => full_film.clone(),
     };
     let is_mp4 = matches!(target, ExportTarget::Film(FilmKind::Mp4, _));
-    // The camera frames the whole film, so that parts rendered separately fit together.
+    // The view contains the whole film, so that ranges of frames rendered separately fit together.
     let camera = camera(args, opened, full_film.times(), is_mp4)?;
     if args.size.is_some_and(|size| size != camera.view.size()) {
         output::message(&format!(
@@ -434,7 +434,7 @@ fn full_film(
     Ok(film.with_title(&project.title))
 }
 
-/// Returns the camera that frames the sequence at the given times.
+/// Returns a camera whose view contains the sequence at all of the given times.
 ///
 /// If `is_even`, rounds the sides of the image up to even numbers of pixels, as MP4 requires.
 fn camera(

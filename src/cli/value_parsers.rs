@@ -48,7 +48,7 @@ pub(super) fn set_if_given<T>(place: &mut T, value: Option<T>) {
     }
 }
 
-/// Parses face weights: a name of the project file, or one number per face.
+/// Parses face weights: a name that is valid in project files, or one number per face.
 pub(super) fn weights(text: &str) -> Result<FaceWeights, ValueError> {
     // serde parses the names, so they are the same as in a project file.
     let by_name = serde_json::from_value(text.into()).ok();

@@ -12,8 +12,8 @@ use glam::{DAffine2, DVec2};
 pub struct Gradient {
     /// Kind of the gradient, with its inner circle if it is radial.
     pub geometry: GradientGeometry,
-    /// Map from the gradient's own space to the plane. In its own space, a linear gradient runs
-    /// from x = 0 to x = 1, and a radial gradient from its inner circle to the unit circle.
+    /// Affine map from the gradient's own space to the plane. In its own space, a linear gradient
+    /// runs from x = 0 to x = 1, and a radial gradient from its inner circle to the unit circle.
     pub frame: DAffine2,
     /// Stops in ascending order of offset. Two stops with the same offset form a hard edge, at
     /// which the paint jumps.
@@ -26,9 +26,9 @@ pub struct Gradient {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum GradientGeometry {
-    /// Runs along x, from 0 to 1.
+    /// Runs along x, from 0 to 1, in the gradient's own space.
     Linear,
-    /// Runs from an inner circle to the unit circle, which contains it.
+    /// Runs from an inner circle to the unit circle, which contains the inner circle.
     Radial {
         /// Centre of the inner circle, in the gradient's own space.
         focus: DVec2,
@@ -66,7 +66,8 @@ impl Gradient {
         let (Some(first), Some(last)) = (self.stops.first(), self.stops.last()) else {
             return TRANSPARENT;
         };
-        // The paint of the first stop continues before it, and that of the last stop after it.
+        // The paint of the first stop also fills the offsets before it, and that of the last stop
+        // the offsets after it.
         let ends = [(first.paint, first.offset), (last.paint, 1.0 - last.offset)];
         let between = self.stops.windows(2).map(|pair| {
             let paint = pair[0].paint.mixed(pair[1].paint, 0.5);

@@ -1,4 +1,4 @@
-//! Evenly spaced points along the four sides of a rectangle, the border of a whole-frame mesh.
+//! Evenly spaced points along the border of the frame, for meshes that cover the whole frame.
 
 use crate::geometry::{Bounds, DVec2, ring_edges};
 
@@ -8,8 +8,8 @@ pub(super) fn border_points(frame: &Bounds, spacing: f64) -> Vec<DVec2> {
     let mut points = Vec::new();
     for (a, b) in ring_edges(&frame.corners()) {
         let pieces = (a.distance(b) / spacing).ceil().max(1.0) as u32;
-        // This formula keeps points exactly on an axis-parallel side. A point that lies off the
-        // side could cause a folded sliver.
+        // This formula keeps points exactly on an axis-parallel side. Points that rounding moves
+        // off the side could be joined to a folded, very thin face.
         points.extend((0..pieces).map(|i| a + (b - a) * (f64::from(i) / f64::from(pieces))));
     }
     points

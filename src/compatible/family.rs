@@ -25,7 +25,7 @@ pub struct CompatibleFamily {
     connectivity: Connectivity,
 }
 
-/// Reason why designs form no family. Fields count designs from 0, messages from 1.
+/// Reason why designs form no family. Design indices start at 0 in fields and at 1 in messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FamilyError {
@@ -45,11 +45,11 @@ pub enum FamilyError {
     PartsDiffer {
         /// Index of the design that differs.
         design: usize,
-        /// Index of the design with which it is compared and which has other parts or holes.
+        /// Index of the design with which it was compared.
         of: usize,
     },
-    /// A design's outline is not a valid boundary after the points that correspond to those of the
-    /// other designs were inserted.
+    /// The outline of a design is not a valid boundary after points that correspond to points of
+    /// the other designs were inserted into it.
     #[error("design {}: {error}", design + 1)]
     Outline {
         /// Index of the design with the invalid outline.
@@ -154,8 +154,9 @@ impl CompatibleFamily {
         let embeddings: Vec<_> = trusses.iter().map(|t| t.nodes().to_vec()).collect();
         let mut family: Option<Self> = None;
         for (a, first) in trusses.iter().enumerate() {
-            // Pairs with the first truss also check that every truss is compatible with it. They
-            // are therefore all visited, even after a triangulation has been found.
+            // All pairs with the first truss (`a` = 0) are tried, even after a triangulation has
+            // been found, because each pair also checks that its second truss is compatible with
+            // the first.
             if a > 0 && family.is_some() {
                 break;
             }

@@ -14,8 +14,8 @@ use crate::geometry::{Bounds, DVec2, signed_area, winding};
 use crate::work::progress::{Progress, ProgressShares};
 use rayon::prelude::*;
 
-/// Number of border points along the longer side of the frame (heuristic: half as many as in a mesh
-/// around pins, because the outlines contribute further points).
+/// Number of border points along the longer side of the frame (heuristic: half as many as in
+/// `CompatibleMesh::around_pins`, because the points of the outlines are added).
 const POINTS_ALONG: f64 = 12.0;
 
 /// Reason why the frame has no mesh in which the outlines are mesh edges.
@@ -28,17 +28,18 @@ pub enum FrameOutlinesError {
         "the outlines are nested differently in the two designs, are cut open, or reach beyond the frame"
     )]
     Nesting,
-    /// The meshes of the cells do not form a valid mesh when they are joined along the outlines.
+    /// The meshes of the cells (the regions between outlines) do not form a valid mesh when they
+    /// are joined along the outlines.
     #[error("the cells between the outlines do not fit together: {0}")]
     Assembly(#[from] CompatibleError),
-    /// A cell could not be triangulated.
+    /// A cell (a region between outlines) could not be triangulated.
     #[error(transparent)]
     Cell(#[from] PieceMeshError),
 }
 
 /// Cell: a connected region of the plane between outlines. The first entry is the ring around it,
-/// the others are the rings inside it. An entry is the index of a ring and whether the cell runs
-/// along it backwards.
+/// the others are the rings inside it. An entry is the index of a ring, and whether the boundary of
+/// the cell passes the points of this ring in reverse order.
 struct FrameCell(Vec<(usize, bool)>);
 
 impl CompatibleMesh {
@@ -60,7 +61,7 @@ impl CompatibleMesh {
         let border = border_points(frame, frame.size().max_element() / POINTS_ALONG);
         let mut rings = vec![[border.clone(), border]];
         let cells = cells(&matched.pieces, &mut rings).ok_or(FrameOutlinesError::Nesting)?;
-        // An outline that touches the border would leave cells without area.
+        // If an outline touched the border, the cell between the two could not be triangulated.
         let inside = |p: &DVec2| frame.padded(-1e-6 * frame.diameter()).contains(*p);
         if !rings[1..].iter().flatten().flatten().all(inside) {
             return Err(FrameOutlinesError::Nesting);
@@ -91,7 +92,7 @@ impl CompatibleMesh {
 fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<FrameCell>> {
     let mut parts = Vec::new();
     // Voids are the cells outside all parts: first the one inside the frame, then one inside each
-    // hole. The void of a hole runs along the hole's ring backwards.
+    // hole. The boundary of a void passes the points of the hole's ring in reverse order.
     let mut voids = vec![FrameCell(vec![(0, false)])];
     let mut outers = Vec::new();
     for piece in pieces {
@@ -120,7 +121,8 @@ fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<
         }
         parts.push(FrameCell(part));
     }
-    // Each part must lie in the same void in both designs. Otherwise the cells do not correspond.
+    // Each part must lie in the same void in both designs. Otherwise the cells of the two designs
+    // do not correspond.
     for outer in outers {
         let around = [0, 1].map(|side| surrounding(&parts, &voids, rings, outer, side));
         match around {
@@ -179,7 +181,7 @@ fn join_cells(
         let mut shared = Vec::new();
         for &(ring, backwards) in &cell.0 {
             let count = rings[ring][0].len() as u32;
-            // Vertices of the ring in the order in which the cell runs along it.
+            // Vertices of the ring in the order in which the boundary of the cell passes them.
             let vertices =
                 (0..count).map(|k| first[ring] + if backwards { count - 1 - k } else { k });
             shared.extend(vertices);

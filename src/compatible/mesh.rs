@@ -18,7 +18,7 @@ pub struct CompatibleMesh {
     pub(super) faces: Arc<[[u32; 3]]>,
     pub(super) source: Vec<DVec2>,
     pub(super) target: Vec<DVec2>,
-    /// Bars that lie in no face. In the energy of a warp, each is an element with two points.
+    /// Bars that lie in no face. Each counts as a two-point element in the energy of a warp.
     pub(super) elements: Vec<BarElement>,
     pub(super) connectivity: Connectivity,
 }
@@ -132,7 +132,7 @@ impl CompatibleMesh {
         &self.elements
     }
 
-    /// Incidence of faces and edges.
+    /// Which faces meet at which edges.
     #[must_use]
     pub fn connectivity(&self) -> &Connectivity {
         &self.connectivity
@@ -166,9 +166,9 @@ impl CompatibleMesh {
         Bounds::diameter_of(&self.source).max(Bounds::diameter_of(&self.target))
     }
 
-    /// Conformal distortion of the map from source to target: σ₁/σ₂, the ratio of the singular
-    /// values of a face's affine map, as a high quantile over the faces. It is 1 for a similarity
-    /// and for a mesh without faces.
+    /// Conformal distortion from source to target: σ₁/σ₂, the ratio of the singular values of a
+    /// face's affine map, as a high quantile over the faces. It is 1 for a similarity and for a
+    /// mesh without faces.
     ///
     /// The weight of a face is the mean of its shares of the source's and the target's area. The
     /// worst faces, up to the fraction `ignored_area` of the total weight, are ignored.
@@ -180,9 +180,9 @@ impl CompatibleMesh {
         };
         let face_distortion = |face| {
             let [p, q] = [&self.source, &self.target].map(|points| edges(points, face));
-            // For r = σ₁/σ₂ the mean of r and 1/r is |J|² / (2 det J), where J is the Jacobian of
-            // the face, because |J|² = σ₁² + σ₂² and det J = σ₁σ₂. The inverse of p exists because
-            // the face is positive in the source.
+            // J is the Jacobian of the face's affine map. Because |J|² = σ₁² + σ₂² and det J =
+            // σ₁σ₂, the mean of r = σ₁/σ₂ and 1/r is |J|² / (2 det J). The edge matrix p is
+            // invertible, because the face is positive in the source.
             let j = q * p.inverse();
             let square = j.x_axis.length_squared() + j.y_axis.length_squared();
             let mean = 0.5 * square / j.determinant();
@@ -217,8 +217,8 @@ impl CompatibleMesh {
         }
     }
 
-    /// Returns the mesh with each connected part translated by `by[part]`: its offset in the source
-    /// and its offset in the target. `None` if rounding makes a face flat or turns it over.
+    /// Returns the mesh with each connected part translated. `by[part]` contains the offset in the
+    /// source and the offset in the target. `None` if rounding makes a face flat or turns it over.
     pub(crate) fn with_parts_translated(&self, by: &[[DVec2; 2]]) -> Option<Self> {
         let parts = self.components();
         let translated = |side: Side, points: &[DVec2]| -> Vec<DVec2> {

@@ -1,5 +1,5 @@
 //! Compatible mesh of a whole match. Its pieces (matched connected parts) are triangulated in
-//! parallel and merged.
+//! parallel, and the results form one mesh.
 
 use super::assembly::MeshAssembly;
 use super::{CompatibleMesh, PieceMeshError, PolygonOptions};

@@ -4,8 +4,9 @@
 //!
 //! 1. A refined triangulation of either polygon is transferred to the other without folds
 //!    ([`transfer`]). This gives good angles but may fail.
-//! 2. If the transfers in both directions fail, the guaranteed base mesh is built ([`overlay`] for
-//!    discs, [`bridges`] for pieces with holes), and unneeded vertices are removed from it.
+//! 2. If the transfers in both directions fail, a base mesh is built, which always exists in exact
+//!    arithmetic ([`overlay`] for discs, [`bridges`] for pieces with holes). Unneeded vertices are
+//!    then removed from it.
 //! 3. The angles are improved in both designs at once ([`quality`]).
 //!
 //! Afterwards, boundary points may [`slide`] along the outlines to places where the two

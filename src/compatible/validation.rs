@@ -5,18 +5,19 @@ use super::truss::{TrussError, list_first};
 use crate::geometry::{DVec2, Side, orient2d};
 use crate::mesh::MeshError;
 
-/// Bar of a truss as a two-point element of the energy: its two vertex indices.
+/// Bar of a truss that counts as a two-point element in the energy of a warp: its two vertex
+/// indices.
 pub type BarElement = [u32; 2];
 
-/// Reason why two designs, as given, have no common triangulation. Messages count faces, vertices
-/// and bars from 1, as mesh files do.
+/// Reason why two designs, as given, have no common triangulation. Indices start at 0 in fields and
+/// at 1 in messages, as in mesh files.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompatibleError {
-    /// The source and the target have these different numbers of vertices.
+    /// Source and target have different numbers of vertices. The field contains both numbers.
     #[error("the source has {} vertices and the target {}; both need the same vertices in the same order", .0[0], .0[1])]
     VertexCounts([usize; 2]),
-    /// The source and the target have these different numbers of faces.
+    /// Source and target have different numbers of faces. The field contains both numbers.
     #[error("the source has {} faces and the target {}; both need the same faces in the same order", .0[0], .0[1])]
     FaceCounts([usize; 2]),
     /// The face with this index has different vertices in the two designs.
@@ -47,7 +48,7 @@ pub enum CompatibleError {
     Flat {
         /// Design in which the faces are flat.
         side: Side,
-        /// Indices of the flat faces.
+        /// Indices of the faces without area.
         faces: Vec<usize>,
     },
     /// The vertex with this index belongs to no face and no bar.
@@ -120,8 +121,8 @@ pub(super) fn orient_faces(
             return Err(CompatibleError::Flat { side, faces: flat });
         }
     }
-    // After this loop all faces are counter-clockwise in the source; only the target can still
-    // disagree.
+    // After this loop all faces are counter-clockwise in the source; faces may still be clockwise
+    // in the target only.
     for face in &mut faces {
         if area(face, source) < 0.0 {
             face.swap(1, 2);

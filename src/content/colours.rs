@@ -55,7 +55,7 @@ pub struct ColourMixError {
 }
 
 impl Default for ColourMix {
-    /// Returns a linear mix over all of [0, 1].
+    /// Returns a linear mix from t = 0 to t = 1.
     fn default() -> Self {
         Self {
             curve: NamedEasing::Linear,
@@ -122,8 +122,8 @@ impl PicturePair {
     /// [`ColourMixError`] if the interval of the mix is invalid.
     pub fn new(source: &Picture, target: &Picture, mix: ColourMix) -> Result<Self, ColourMixError> {
         mix.check()?;
-        // The pictures are decoded in parallel, because decoding one takes as long as several
-        // frames.
+        // The pictures are decoded in parallel, because decoding one takes as long as rendering
+        // several output images.
         let (source, target) =
             rayon::join(|| PictureLayer::new(source), || PictureLayer::new(target));
         Ok(Self {
@@ -181,7 +181,7 @@ impl PicturePair {
 /// limit: the light of these pixels takes 512 bytes; the cost of switching is negligible).
 const CHUNK: usize = 32;
 
-/// Renders one output image, run by run: a run is a part of a row of pixels.
+/// Renders one output image, run by run: a run is a sequence of adjacent pixels of one row.
 struct PicturePaint<'a> {
     /// Source and target, sampled at the resolution of the output.
     layers: [PictureSampler<'a>; 2],

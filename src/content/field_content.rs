@@ -105,7 +105,8 @@ impl FieldContent {
         self.painted_fields.as_ref()
     }
 
-    /// Returns the fields for each paint layer, for changing them.
+    /// Returns mutable access to the fields of each paint layer; `None` for a content in a single
+    /// colour.
     pub(crate) fn painted_fields_mut(&mut self) -> Option<&mut PaintedFields> {
         self.painted_fields.as_mut()
     }
@@ -172,7 +173,7 @@ impl FieldContent {
         layers.collect()
     }
 
-    /// Contour of one pair at `t`, carried along by the warp or not.
+    /// Contour of one pair at `t`. If the fields are carried along, the warp moves the contour.
     fn contour_of(&self, pair: &FieldPair, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
         match self.is_carried {
             true => pair.contour_carried(placement, t),

@@ -26,8 +26,8 @@ pub struct PaintLayerStack {
 pub struct InkedLayer {
     /// Index of the paint layer of the rings; 0 if the content has a single colour.
     pub layer: usize,
-    /// Own time of the parts to which the rings belong: the t that the clock of these parts shows.
-    /// The paints of source and target are mixed at this time.
+    /// Own time of the parts to which the rings belong: the transition's t, converted by the clock
+    /// of these parts. The paints of source and target are mixed at this time.
     pub t: f64,
     /// The rings of the group: closed polygons in the plane, without a repeated end point.
     pub rings: Vec<Vec<DVec2>>,

@@ -9,8 +9,8 @@ use crate::geometry::DVec2;
 use crate::warp::Placement;
 use rayon::prelude::*;
 
-/// Number of rows in a band, which one thread fills at a time (resource limit: few enough that all
-/// threads have work, and enough that a face is set up for few bands).
+/// Number of rows in a band, which one thread fills at a time (resource limit: with fewer rows,
+/// each face would be prepared for more bands; with more rows, some threads would have no work).
 const BAND: usize = 32;
 
 /// Distance, in samples, by which a face is extended beyond its edges, so that rounding opens no
@@ -32,16 +32,18 @@ pub(super) struct SourceFacet {
 /// Affine map from lattice coordinates to the plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AffinePlane {
-    /// Image of sample (0, 0).
+    /// Point to which sample (0, 0) is mapped.
     pub origin: DVec2,
-    /// Difference between the images of a sample and of its neighbour in the next column.
+    /// Difference between the points of two neighbouring samples: the one in the next column minus
+    /// the one in this column.
     pub by_x: DVec2,
-    /// Difference between the images of a sample and of its neighbour in the next row.
+    /// Difference between the points of two neighbouring samples: the one in the next row minus the
+    /// one in this row.
     pub by_y: DVec2,
 }
 
 impl AffinePlane {
-    /// Returns the image of the sample in column `x` and row `y`.
+    /// Returns the point to which the sample in column `x` and row `y` is mapped.
     #[inline]
     pub fn at(&self, x: usize, y: usize) -> DVec2 {
         self.origin + self.by_x * x as f64 + self.by_y * y as f64
@@ -81,7 +83,7 @@ struct PatchEdge {
     along: DVec2,
     /// The extension [`REACH`], multiplied by the length of the edge.
     reach: f64,
-    /// Inverse of `along.y`; `None` for a horizontal edge.
+    /// 1 / `along.y`, where `along` is the vector along the edge; `None` for a horizontal edge.
     per_rise: Option<f64>,
 }
 

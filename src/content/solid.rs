@@ -43,16 +43,16 @@ pub struct SolidContent {
 pub struct SolidClocks {
     /// All clocks. The last one belongs to the transition as a whole.
     pub clocks: Vec<PartClock>,
-    /// For each boundary loop, the index of its clock.
+    /// For each boundary loop, the index in `clocks` of its part's clock.
     pub of_loops: Vec<usize>,
-    /// For each hole, the index of its clock.
+    /// For each hole, the index in `clocks` of its part's clock.
     pub of_holes: Vec<usize>,
-    /// For each vertex, the index of its clock.
+    /// For each vertex, the index in `clocks` of its part's clock.
     pub of_vertices: Vec<usize>,
 }
 
 impl SolidClocks {
-    /// Index of the clock that a vertex follows.
+    /// Index in `clocks` of the clock of a vertex's part.
     fn of_vertex(&self, vertex: u32) -> usize {
         self.of_vertices[vertex as usize]
     }
@@ -90,8 +90,8 @@ impl InkedBars {
     #[must_use]
     pub fn grouped_by_paint(count: usize, paints: &[[Option<Paint>; 2]]) -> Vec<Self> {
         let mut groups: Vec<Self> = Vec::new();
-        // The map keeps the time linear: when colours show forces, there may be as many paints as
-        // bars.
+        // The hash map keeps the time linear: when colours show forces, there may be as many paints
+        // as bars.
         let mut group_of_paints = HashMap::new();
         for bar in 0..count {
             let paints = paints.get(bar).copied().unwrap_or_default();
@@ -195,7 +195,8 @@ impl SolidContent {
         loops.chain(swells).chain(holes.map(hole_ring)).collect()
     }
 
-    /// Time that the clock of a boundary loop shows at the transition's `t`.
+    /// Converts the transition's `t` to the time of a part, by the part's clock. The part is that
+    /// of the boundary loop with this index.
     fn loop_time(&self, loop_index: usize, t: f64) -> f64 {
         let clocks = self.part_clocks.as_ref();
         clocks.map_or(t, |clocks| {
@@ -203,7 +204,8 @@ impl SolidContent {
         })
     }
 
-    /// Time that the clock of a hole shows at the transition's `t`.
+    /// Converts the transition's `t` to the time of the part that has the hole, by the part's
+    /// clock.
     fn hole_time(&self, hole: usize, t: f64) -> f64 {
         let clocks = self.part_clocks.as_ref();
         clocks.map_or(t, |clocks| {
@@ -211,7 +213,8 @@ impl SolidContent {
         })
     }
 
-    /// Time that the clock of the part with the given boundary loops shows at the transition's `t`.
+    /// Converts the transition's `t` to the time of the part with the given boundary loops, by the
+    /// part's clock.
     fn part_time(&self, loops: &[usize], t: f64) -> f64 {
         loops
             .first()

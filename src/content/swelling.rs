@@ -43,14 +43,15 @@ impl SwellingShape {
         &self.loop_indices
     }
 
-    /// Fraction of the part's full thickness at the part's own time `t`, from 0 to 1.
+    /// Fraction of the part's full thickness, from 0 to 1, when the part's clock shows the time
+    /// `t`.
     pub(crate) fn thickness_fraction(&self, t: f64) -> f64 {
         self.window.size(t)
     }
 
-    /// Returns the rings of the part at its own time `t`; none while it is absent. `first_loop`
-    /// contains the positions of the part's first boundary loop at that time; their mean places the
-    /// shape.
+    /// Returns the rings of the part when the part's clock shows the time `t`; none while the part
+    /// is absent. `first_loop` contains the positions of the part's first boundary loop at that
+    /// moment. The shape is placed at the mean of these positions.
     #[must_use]
     pub fn rings_at(&self, first_loop: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
         let fraction = self.thickness_fraction(t);

@@ -99,8 +99,8 @@ impl TransientHole {
         self.window.side
     }
 
-    /// Returns the area of the unshrunken hole on its faces when the vertices are at `places`, as a
-    /// multiple of the hole's area in its design.
+    /// Returns the area that the hole covers on its faces at full size when the vertices are at
+    /// `places`, as a multiple of the hole's area in its design.
     pub(crate) fn area_ratio(&self, places: &[DVec2]) -> f64 {
         let ring: Vec<DVec2> = self.hosts.iter().map(|host| host.at(places)).collect();
         signed_area(&ring) / signed_area(&self.ring)
@@ -117,13 +117,13 @@ impl TransientHole {
         self.hosts[point].face
     }
 
-    /// Returns whether the hole is absent at its own time `t`.
+    /// Returns whether the hole is absent when the clock of its part shows the time `t`.
     pub(crate) fn is_absent(&self, t: f64) -> bool {
         self.window.is_absent(t)
     }
 
-    /// Returns the ring of the hole at its own time `t`, clockwise; `None` while the hole is
-    /// absent. `places` contains the vertex positions at that time.
+    /// Returns the ring of the hole when the clock of its part shows the time `t`, clockwise;
+    /// `None` while the hole is absent. `places` contains the vertex positions at that moment.
     ///
     /// # Panics
     /// Panics if a face has a vertex without a position.

@@ -1,7 +1,7 @@
-//! The match of two closed curves: a strictly monotone, piecewise linear map between their places
-//! (fractions of arc length).
+//! The match of two closed curves: a strictly monotone, piecewise linear mapping between their
+//! places (fractions of arc length).
 
-/// Map from the places (fractions of arc length) of one closed curve to those of another. It is
+/// Mapping from the places (fractions of arc length) of one closed curve to those of another. It is
 /// linear between knots, strictly monotone in both directions, and goes around once.
 ///
 /// The match in the other direction is exactly [`Self::inverse`], without rounding.
@@ -38,7 +38,8 @@ impl BoundaryMatch {
         self.cost
     }
 
-    /// Returns the match from the target to the source.
+    /// Returns the match in the other direction, from the target to the source. It is exact,
+    /// without rounding.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let swapped = |pairs: &[[f64; 2]]| {
@@ -62,17 +63,17 @@ impl BoundaryMatch {
     }
 }
 
-/// Returns the value of column `there` at which column `here` equals `place`, by linear
-/// interpolation between the knots. The knots ascend in all columns.
+/// Interpolates linearly between knots: returns the value of column `there` at the point where
+/// column `here` has the value `place`. The knots ascend in all columns.
 ///
-/// Before the first knot and after the last one, returns that knot's value.
+/// If `place` lies before the first or after the last knot, returns the value of that knot.
 pub(super) fn interpolate_knots<const N: usize>(
     knots: &[[f64; N]],
     place: f64,
     [here, there]: [usize; 2],
 ) -> f64 {
     let after = knots.partition_point(|knot| knot[here] <= place);
-    // Places outside the knots use the first or the last interval.
+    // Places before the first or after the last knot use the first or the last interval.
     let k = after.clamp(1, knots.len() - 1);
     let (from, to) = (knots[k - 1], knots[k]);
     let along = (place - from[here]) / (to[here] - from[here]);

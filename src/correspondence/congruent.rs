@@ -12,8 +12,9 @@ use super::curve::BoundaryCurve;
 use super::knot_order::{is_pin, ordered_knots};
 use crate::geometry::{DVec2, SimilarityFit};
 
-/// Maximum root mean square distance between matched points after the best-fitting similarity at
-/// which two curves count as nearly congruent, as a fraction of the target's length (heuristic).
+/// Maximum root mean square distance between matched points after the best-fitting similarity, as a
+/// fraction of the target's length. Two curves with a larger distance do not count as nearly
+/// congruent (heuristic).
 const MAX_RESIDUAL: f64 = 0.012;
 
 /// Maximum distance along the target by which a knot may move from its original place, as a
@@ -26,7 +27,7 @@ const MAX_DISTANCE: f64 = 0.01;
 /// Maximum number of rounds of the iterated closest point method (resource limit).
 const MAX_ROUNDS: usize = 8;
 
-/// Half-length of the window over which a curve's direction is averaged, as a fraction of the
+/// Half-length of the section of a curve over which its direction is averaged, as a fraction of the
 /// curve's length (heuristic).
 const TANGENT_REACH: f64 = 0.005;
 /// Minimum cosine of the angle between the curves' directions at two matched points: the angle is
@@ -38,10 +39,11 @@ const SAME_DIRECTION: f64 = 0.5;
 const MIN_SHIFT: f64 = 1e-9;
 
 /// Maps the source point of each knot by the best-fitting similarity, and moves the knot's target
-/// place to the target point nearest to the result. A knot without such a point nearby keeps its
-/// place; pins do not move. `knots` ascend in the source. Knots that would then break the cyclic
-/// order are omitted. Returns `None` if these are half of the knots or more, or if no similarity
-/// maps the curves almost onto each other.
+/// place to the point of the target that is nearest to the mapped point. A knot without such a
+/// point nearby keeps its place; pins do not move. `knots` ascend in the source.
+///
+/// Moved knots that break the cyclic order are omitted. Returns `None` if at least half of the
+/// knots are omitted, or if no similarity maps the curves almost onto each other.
 pub(super) fn registered_knots(
     knots: &[[f64; 2]],
     pins: &[[f64; 2]],

@@ -5,8 +5,8 @@
 //! scaled.
 //!
 //! *Turning* at a place is the mean direction after it minus the mean direction before it, both
-//! over a given window. Means of the *unwrapped* direction have no jump at ±π, and jitter of the
-//! outline cancels out.
+//! over a given length of the curve. Means of the *unwrapped* direction have no jump at ±π, and
+//! jitter of the outline cancels out.
 
 use crate::geometry::{DVec2, Ring, nearest_segment_parameter, perimeter};
 use std::f64::consts::TAU;
@@ -22,7 +22,8 @@ pub struct BoundaryCurve {
     points: Vec<DVec2>,
     /// Place of each point (fraction of the curve's length), followed by 1.
     places: Vec<f64>,
-    /// Unwrapped direction of each edge, in radians.
+    /// Unwrapped direction of each edge, in radians: multiples of 2π are added so that it changes
+    /// by at most π from edge to edge.
     directions: Vec<f64>,
     /// Integral of the unwrapped direction with respect to the place: from place 0 to each point,
     /// and to place 1.
@@ -208,8 +209,8 @@ impl BoundaryCurve {
         if place < 1.0 { place } else { 0.0 } // rem_euclid rounds -1e-20 up to 1
     }
 
-    /// Returns the mean unwrapped direction of the tangent between two places, in radians. The
-    /// places may lie outside [0, 1).
+    /// Returns the mean direction of the tangent between two places, in radians, unwrapped (without
+    /// jumps of 2π). The places may lie outside [0, 1).
     pub(super) fn direction(&self, from: f64, to: f64) -> f64 {
         (self.direction_integral(to) - self.direction_integral(from)) / (to - from)
     }
@@ -220,8 +221,8 @@ impl BoundaryCurve {
         self.direction(place, place + reach) - self.direction(place - reach, place)
     }
 
-    /// Returns the integral of the unwrapped direction from place 0 to `place`, which may lie
-    /// outside [0, 1).
+    /// Returns the integral of the tangent's direction, unwrapped (without jumps of 2π), from place
+    /// 0 to `place`, which may lie outside [0, 1).
     fn direction_integral(&self, place: f64) -> f64 {
         let rounds = place.floor();
         let partial = place - rounds;
@@ -233,7 +234,8 @@ impl BoundaryCurve {
         whole + full_rounds + self.integral_within(partial)
     }
 
-    /// Returns the integral of the unwrapped direction from place 0 to a place in [0, 1].
+    /// Returns the integral of the tangent's direction, unwrapped (without jumps of 2π), from place
+    /// 0 to a place in [0, 1].
     fn integral_within(&self, place: f64) -> f64 {
         let e = self.edge_at(place);
         self.integral[e] + self.directions[e] * (place - self.places[e])

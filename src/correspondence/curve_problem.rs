@@ -2,7 +2,7 @@
 //! the cheapest closed paths on the grid of sample pairs.
 //!
 //! [`super::boundary`] lists the guarantees. A node is a pair of sample indices `[source, target]`.
-//! The indices are unwrapped over the seam: with n samples, index n is sample 0 one round later.
+//! The indices continue from round to round: with n samples, index n is sample 0 one round later.
 
 use super::curve::BoundaryCurve;
 use super::cyclic::cheapest_path_per_start;
@@ -29,11 +29,12 @@ pub(super) struct CurveMatchProblem {
     pub(super) pins: Vec<[f64; 2]>,
     /// Weight of the stretching cost relative to the bending cost (see [`PathGrid`]).
     stretch: f64,
-    /// Weight of differences in the shapes' thickness.
+    /// Weight of the difference in thickness in the dissimilarity of two samples.
     pub(super) thickness: f64,
     /// Whether directions are compared as drawn, without a search for a rotation.
     pub(super) keep_up: bool,
-    /// Weight of differences in inner distances (lengths of shortest paths inside the shape).
+    /// Weight of the difference in inner distances (lengths of shortest paths inside the shape) in
+    /// the dissimilarity of two samples.
     pub(super) inner_weight: f64,
     /// Inner distances between the samples of the source, and of the target. `None` if the weight
     /// of inner distances is zero, or if a curve has no inside.
@@ -109,7 +110,8 @@ impl CurveMatchProblem {
             return visit(cost, &|| nodes.clone());
         }
         let (n, m) = (self.source.places.len(), self.target.places.len());
-        // Two rounds of the source, so that a path may begin at any of its samples.
+        // The grid covers two rounds of the source, so that a path may begin at any of the source's
+        // samples.
         let grid = self.grid(dissimilarities, [0, 0], [2 * n, m]);
         for route in cheapest_path_per_start(&grid.step_costs(), n) {
             visit(route.cost, &|| route.nodes());
@@ -125,7 +127,7 @@ impl CurveMatchProblem {
         let mut nodes: Vec<[usize; 2]> = self.pins.iter().filter_map(node).collect();
         if let Some(&first) = nodes.first() {
             for node in &mut nodes {
-                // Unwrap the target's indices over the seam, so that the nodes ascend.
+                // Add one round to smaller indices of the target, so that the nodes ascend.
                 if node[1] < first[1] {
                     node[1] += m;
                 }
@@ -135,7 +137,7 @@ impl CurveMatchProblem {
         nodes
     }
 
-    /// Returns the part of the grid of sample pairs between the nodes `from` and `to`, both
+    /// Returns the section of the grid of sample pairs between the nodes `from` and `to`, both
     /// included. `dissimilarities` has one row for each target sample.
     pub(super) fn grid(
         &self,
@@ -187,8 +189,8 @@ impl CurveMatchProblem {
     }
 }
 
-/// Returns the nodes of a route as nodes of the whole problem. The route's own grid starts at node
-/// `from`.
+/// Returns the nodes of a route through a section of the grid, with indices in the whole grid. The
+/// section starts at the node `from` of the whole grid.
 fn translated_nodes(route: &GridPath, from: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
     let nodes = route.nodes().into_iter();
     nodes.map(move |[i, j]| [i + from[0], j + from[1]])

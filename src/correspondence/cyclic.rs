@@ -12,8 +12,8 @@
 
 use super::path_grid::{GridPath, PathBuffers, StepCosts};
 
-/// Maximum number of starting columns in half of a range at which both halves are solved one after
-/// the other; larger halves are solved in parallel (heuristic).
+/// The bisection solves the two halves of a range of starting columns in parallel if each half has
+/// more columns than this, and otherwise one after the other (heuristic).
 const MAX_SEQUENTIAL_STARTS: usize = 16;
 
 /// Returns the cheapest path of each starting column 0 ≤ k < n. The grid has at least 2n columns.
@@ -21,7 +21,7 @@ const MAX_SEQUENTIAL_STARTS: usize = 16;
 pub(super) fn cheapest_path_per_start(costs: &StepCosts, n: usize) -> Vec<GridPath> {
     let first = costs.cheapest_path([0, n], |_| [0, n], &mut PathBuffers::default());
     let mut between = vec![None; n.saturating_sub(1)];
-    // Start n is start 0 one round later.
+    // The path from column n is the path from column 0, moved by one round (n columns).
     let last = first.shifted(n);
     bisect(
         costs,
@@ -91,8 +91,9 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Generates two closed curves with unevenly spaced samples and random dissimilarities, as an
-    /// unrolled grid with the number of source samples.
+    /// Generates the grid of sample pairs of two closed curves, unrolled so that the source occurs
+    /// twice, and the number of source samples. The samples are unevenly spaced; dissimilarities
+    /// are random.
     fn torus() -> impl Strategy<Value = (PathGrid, usize)> {
         (1usize..14, 1usize..14).prop_flat_map(|(n, m)| {
             let gaps = |k| prop::collection::vec(0.1f64..1.0, k);
@@ -104,7 +105,8 @@ mod tests {
         })
     }
 
-    /// Unrolls a torus to a grid in which the source occurs twice.
+    /// Unrolls the torus of sample pairs to a grid in which the source occurs twice. `a` and `b`
+    /// are the distances between consecutive samples. Also returns the number of source samples.
     fn unrolled(a: &[f64], b: &[f64], dissimilarities: &[f64], stretch: f64) -> (PathGrid, usize) {
         let (n, m) = (a.len(), b.len());
         let row = |j: usize| (0..=2 * n).map(move |i| dissimilarities[(j % m) * n + i % n]);

@@ -1,9 +1,9 @@
 //! Local features by which boundary samples are compared.
 //!
-//! Two features do not depend on rotation: the turning of the tangent over three window lengths,
-//! and the thickness of the shape at the point. If a *pose* (the rotation of one design onto the
-//! other) is given, the tangent's direction and the position relative to the centre are compared as
-//! well. These two distinguish places that bend alike, such as the fingers of a hand.
+//! Two features do not depend on rotation: the turning of the tangent over sections of three
+//! lengths, and the thickness of the shape at the point. If a *pose* (the rotation of one design
+//! onto the other) is given, the tangent's direction and the position relative to the centre are
+//! compared as well. These two distinguish places that bend alike, such as the fingers of a hand.
 
 use super::curve::BoundaryCurve;
 use super::samples::CurveSamples;
@@ -11,17 +11,17 @@ use super::thickness::log_thickness;
 use crate::geometry::DVec2;
 use std::f64::consts::PI;
 
-/// Half-lengths of the windows over which turning is measured, as fractions of the curve's length,
-/// each with its weight. The longest window has the smallest weight, so that a tail still matches a
-/// tail that curls the other way (heuristic).
+/// Half-lengths of the sections over which turning is measured, as fractions of the curve's length,
+/// each with its weight. The longest section has the smallest weight, so that a tail still matches
+/// a tail that curls the other way (heuristic).
 const REACHES: [(f64, f64); 3] = [(0.012, 0.5), (0.035, 0.5), (0.09, 0.2)];
 
 /// The dissimilarity of two thicknesses is x / (x + `HALF_THICKNESS`), where x is the squared
 /// logarithm of their ratio; it is one half for a ratio of about two (heuristic).
 const HALF_THICKNESS: f64 = 0.5;
 
-/// Half-length of the window over which the tangent's direction is averaged, as a fraction of the
-/// curve's length (heuristic).
+/// Half-length of the section of a curve over which the tangent's direction is averaged, as a
+/// fraction of the curve's length (heuristic).
 const TANGENT_REACH: f64 = 0.01;
 
 /// Weights of the pose-dependent features.
@@ -50,10 +50,11 @@ impl PoseWeights {
 /// radius.
 const HALF_DISTANCE: f64 = 1.0;
 
-/// Features of each sample of a curve.
+/// Features of each sample of a curve: turning, thickness, direction and position.
 #[derive(Clone, Debug)]
 pub(super) struct BoundaryFeatures {
-    /// For each sample: turning over each window length, in units of π.
+    /// For each sample: turning (change of direction) over each length in [`REACHES`], in units of
+    /// π.
     turning: Vec<[f64; REACHES.len()]>,
     /// For each sample: logarithm of the thickness, minus its mean along the curve.
     log_thickness: Vec<f64>,
@@ -83,7 +84,7 @@ impl BoundaryFeatures {
     }
 
     /// Returns how strongly the outline bends at a sample, to either side: the sum of the absolute
-    /// turnings over all windows, in units of π.
+    /// turnings over all lengths in [`REACHES`], in units of π.
     pub fn salience(&self, sample: usize) -> f64 {
         self.turning[sample].iter().map(|turn| turn.abs()).sum()
     }
@@ -147,7 +148,8 @@ fn saturate(x: f64, half: f64) -> f64 {
     x / (x + half)
 }
 
-/// Translates the points to their mean and scales them to a root mean squared radius of 1.
+/// Translates the points so that their mean is the origin, and scales them so that their root mean
+/// squared distance from the origin is 1.
 fn normalise_points(mut points: Vec<DVec2>) -> Vec<DVec2> {
     // Scale first: squares of very large or small coordinates overflow or underflow.
     let scale = points

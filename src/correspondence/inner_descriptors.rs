@@ -26,7 +26,8 @@ pub(super) const AHEAD: u32 = 48;
 #[derive(Clone, Debug)]
 pub(super) struct InnerDescriptors {
     count: usize,
-    /// Logarithms of the distances relative to their median, one row for each sample.
+    /// One row for each sample: logarithms of its inner distances to all samples, in units of the
+    /// median inner distance.
     logs: Vec<f64>,
 }
 
@@ -45,12 +46,13 @@ impl InnerDescriptors {
         })
     }
 
-    /// Returns a sample's logarithmic distances to all samples.
+    /// Returns the row of a sample: the logarithms of its inner distances to all samples.
     fn row(&self, sample: usize) -> &[f64] {
         &self.logs[sample * self.count..][..self.count]
     }
 
-    /// Returns for each sample a row of the logarithmic distances to the samples `others`.
+    /// Returns one row for each sample: the logarithms of its inner distances to the samples
+    /// `others`.
     pub fn distances_to(&self, others: impl Iterator<Item = usize> + Clone) -> Vec<f64> {
         let row = |sample| {
             let row = self.row(sample);
@@ -59,8 +61,8 @@ impl InnerDescriptors {
         (0..self.count).flat_map(row).collect()
     }
 
-    /// Returns for each sample a row of the logarithmic distances to [`AHEAD`] evenly spaced places
-    /// that follow it along the boundary, interpolated between samples.
+    /// Returns one row for each sample: the logarithms of its inner distances to [`AHEAD`] evenly
+    /// spaced places that follow it along the boundary, interpolated between samples.
     pub fn distances_ahead(&self, samples: &CurveSamples) -> Vec<f64> {
         let mut rows = Vec::with_capacity(self.count * AHEAD as usize);
         for sample in 0..self.count {

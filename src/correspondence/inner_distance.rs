@@ -17,10 +17,9 @@ use crate::geometry::{DVec2, twice_signed_area};
 use crate::mesh::Connectivity;
 use crate::mesh::triangulation::constrained_delaunay;
 
-/// Inner distances between places of a boundary.
+/// Inner distances between points of a boundary, given by their places (fractions of arc length).
 #[derive(Clone, Debug)]
 pub(super) struct InnerDistances {
-    /// Number of places.
     pub count: usize,
     /// Symmetric matrix of the inner distances between all places, one row for each place.
     pub lengths: Vec<f64>,
@@ -79,14 +78,14 @@ struct Funnel {
     apex: usize,
     /// Index of the face beyond the funnel's edge.
     face: usize,
-    /// Corner of `face` (0, 1 or 2) at which the funnel's edge begins, if it is followed in the
-    /// direction of `face`.
+    /// Corner of `face` (0, 1 or 2) at which the funnel's edge begins, in the orientation of
+    /// `face`.
     corner: usize,
 }
 
 impl<'a> TriangulatedPolygon<'a> {
-    /// Triangulates a curve and locates the places; `None` if it is not a simple counter-clockwise
-    /// polygon.
+    /// Triangulates a curve and locates the places. Returns `None` if the curve is not a simple
+    /// counter-clockwise polygon.
     fn of(curve: &'a BoundaryCurve, places: &[f64]) -> Option<Self> {
         let points = curve.points();
         let faces = constrained_delaunay(&[points]).ok()?;
@@ -145,8 +144,8 @@ impl<'a> TriangulatedPolygon<'a> {
         self.points[self.faces[face][corner % 3] as usize]
     }
 
-    /// Returns the funnel to the edge that begins at a face's corner, or `None` if it is a boundary
-    /// edge.
+    /// Returns the funnel to the edge that begins at a face's corner. Returns `None` if that edge
+    /// lies on the boundary.
     fn funnel_beyond(
         &self,
         face: usize,
@@ -177,8 +176,8 @@ impl Funnel {
             exit -= 1;
         }
         let last = self.bends.len() - 1;
-        // The path bends around one side of the funnel at most, so the right side matters only if
-        // the left one does not.
+        // The path bends around at most one side of the funnel, so the right side is searched only
+        // if the path does not bend around the left one.
         if exit == self.apex {
             while exit < last && twice_signed_area(at(exit), at(exit + 1), to) < 0.0 {
                 exit += 1;

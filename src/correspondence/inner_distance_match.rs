@@ -19,7 +19,8 @@ use super::poses::PathSolution;
 /// 160 pairs in all (heuristic).
 const MIN_PAIR_DISTANCE: f64 = 0.012;
 
-/// Maximum number of rounds of the alternation between paths and reference pairs (resource limit).
+/// Maximum number of rounds in which each path supplies the reference pairs (pairs of samples to
+/// which inner distances are measured) for the next path (resource limit).
 const MAX_ROUNDS: usize = 6;
 
 impl CurveMatchProblem {
@@ -35,8 +36,9 @@ impl CurveMatchProblem {
         self.path_by_pairs(&coarse.transfer_path(&found.nodes, self))
     }
 
-    /// Alternates between finding the best path for given reference pairs and taking new reference
-    /// pairs from that path, until the cost no longer decreases.
+    /// Alternates between two steps until the cost no longer decreases: finds the best path for
+    /// given reference pairs (pairs of samples to which inner distances are measured), and takes
+    /// new reference pairs from that path.
     fn alternated_inner_solution(&self) -> Option<PathSolution> {
         let [a, b] = self.inner_descriptors.as_ref()?;
         let rows = [
@@ -56,8 +58,9 @@ impl CurveMatchProblem {
         Some(best)
     }
 
-    /// Takes reference pairs from the path `nodes`, compares samples by their inner distances to
-    /// these pairs, and returns the best path. Returns `None` without inner distances.
+    /// Takes reference pairs (pairs of samples) from the path `nodes`, compares samples by their
+    /// inner distances to these pairs, and returns the best path. Returns `None` without inner
+    /// distances.
     fn path_by_pairs(&self, nodes: &[[usize; 2]]) -> Option<PathSolution> {
         let [a, b] = self.inner_descriptors.as_ref()?;
         let (pairs, weights) = self.reference_pairs(nodes);
@@ -79,8 +82,9 @@ impl CurveMatchProblem {
         )
     }
 
-    /// Returns reference pairs along a closed path, each at least [`MIN_PAIR_DISTANCE`] after the
-    /// previous one, with the length of path that each represents.
+    /// Returns the reference pairs of a closed path: pairs of its samples, each at least
+    /// [`MIN_PAIR_DISTANCE`] after the previous one. Also returns the length of the path that each
+    /// represents.
     fn reference_pairs(&self, nodes: &[[usize; 2]]) -> (Vec<[usize; 2]>, Vec<f64>) {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let position =

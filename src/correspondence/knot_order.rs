@@ -13,8 +13,8 @@ pub(super) fn is_pin(pins: &[[f64; 2]], knot: [f64; 2]) -> bool {
 /// Returns the moved knots without those that would break monotonicity; pins take precedence.
 ///
 /// `original` are the knots before the move, in cyclic order; `moved` are the same knots after it.
-/// No knot may move by half a round or more, so that its round is unambiguous. The result ascends
-/// in the source.
+/// Each knot must move by less than half of the curve's length, because places are cyclic and a
+/// longer move would be ambiguous. The result ascends in the source.
 pub(super) fn ordered_knots(
     original: &[[f64; 2]],
     moved: &[[f64; 2]],
@@ -25,12 +25,12 @@ pub(super) fn ordered_knots(
     let mut path: Vec<(usize, [f64; 2])> = Vec::with_capacity(original.len());
     let shift = |k: usize, side: usize| {
         let shift = moved[k][side] - original[k][side];
-        // Take the shorter way across the seam.
+        // Places are cyclic: take the shorter of the two ways around the curve.
         shift - shift.round()
     };
     for offset in 0..original.len() {
         let k = (start + offset) % original.len();
-        // Unwrap the places relative to the start, so that "ascending" is well defined.
+        // Measure places from the first knot, so that "ascending" is well defined.
         let from_start = |side: usize| (original[k][side] - original[start][side]).rem_euclid(1.0);
         let place = [0, 1].map(|side| from_start(side) + shift(k, side));
         let follows = |last: [f64; 2]| {

@@ -14,7 +14,7 @@ pub(crate) struct PartAppearance {
     pub(crate) height: f64,
     /// Paint of the part; `None` if the design has no colours.
     pub(crate) paint: Option<Paint>,
-    /// Whether a line is drawn along the part, which would make a cut visible.
+    /// Whether the part's paint layer has a line (stroke). A cut through the part would be visible.
     pub(crate) is_lined: bool,
     /// Name of the part in its file; empty if it has none.
     pub(crate) name: String,
@@ -26,8 +26,8 @@ pub(crate) struct PartAppearance {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct PartAppearances(pub(crate) [Vec<PartAppearance>; 2]);
 
-/// Pairing cost of the largest difference in paint, that between black and white; a distance of one
-/// design size costs 1 (heuristic).
+/// Pairing cost of the largest difference in paint, that between black and white. For comparison, a
+/// distance between centres that equals the design's size costs 1 (heuristic).
 const PAINT_COST: f64 = 0.5;
 /// Pairing cost of the largest difference in height, that between the bottom and the top layer
 /// (heuristic).
@@ -55,7 +55,7 @@ impl PartAppearance {
 }
 
 impl PartAppearances {
-    /// Returns whether a line is drawn along a part; false if no appearance is given.
+    /// Returns whether a part's paint layer has a line (stroke); false if no appearance is given.
     pub(crate) fn is_lined(&self, side: Side, part: usize) -> bool {
         self.0[side].get(part).is_some_and(|look| look.is_lined)
     }

@@ -24,9 +24,9 @@ const LONGER: [[usize; 2]; 10] = [
     [1, 8],
 ];
 
-/// Returns the cheapest strictly monotone path from the first to the last of `nodes` that stays
-/// within `reach` samples of them. If none exists, unit steps are merged until each advances along
-/// both curves.
+/// Returns the cheapest strictly monotone path that has the same ends as the path `nodes` and stays
+/// within `reach` samples of it. If no such path exists, merges the unit steps of `nodes` until
+/// each step advances along both curves.
 pub(super) fn refine(grid: &PathGrid, nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     let windows = windows(nodes, reach);
     cheapest_path(grid, &windows).unwrap_or_else(|| merged_steps(nodes))
@@ -70,11 +70,12 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     (0..=rows).map(window).collect()
 }
 
-/// Returns the cheapest strictly monotone path within the windows, or `None` if no path exists.
+/// Returns the cheapest strictly monotone path that stays between the two columns given for each
+/// row by `windows`, or `None` if no path exists.
 fn cheapest_path(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> {
     let width = grid.source.len();
     let longer = LONGER.into_iter().flat_map(|[a, b]| [[a, b], [b, a]]);
-    // The even step comes first, since ties go to the first step.
+    // The step [1, 1] comes first, because the first step wins ties.
     let steps = std::iter::once([1, 1]).chain(longer);
     let steps: Vec<MonotoneStep> = steps.map(|step| MonotoneStep::new(step, width)).collect();
     let mut cost = vec![f64::INFINITY; width * windows.len()];
@@ -99,8 +100,8 @@ fn cheapest_path(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 
     Some(nodes)
 }
 
-/// Returns the cost of the cheapest path to node (i, j), and the index in `steps` of its last step.
-/// Returns `None` if no step to this node comes from a node that was reached.
+/// Returns the minimum cost of a path to node (i, j), and the index in `steps` of the last step of
+/// this path. Returns `None` if no path reaches the node.
 fn best_step(
     grid: &PathGrid,
     steps: &[MonotoneStep],
@@ -126,15 +127,17 @@ fn best_step(
     best.map(|step| (min_cost, step))
 }
 
-/// A step of several samples, and the nodes between its ends at which the dissimilarity is
-/// interpolated.
+/// A step that advances along both curves by one or more samples, and the nodes between its ends at
+/// which the dissimilarity is interpolated.
 struct MonotoneStep {
     source: usize,
     target: usize,
-    /// Difference between the grid indices of the step's end and its start.
+    /// Difference between the indices in the grid, row · width + column, of the step's end and
+    /// start.
     back: usize,
-    /// One entry for each intermediate sample of the longer side: the offsets of two nodes from the
-    /// step's start, and the interpolation weight of the second node.
+    /// One entry for each sample that the step passes on the curve along which it advances farther:
+    /// the two nodes between which the dissimilarity is interpolated, as offsets from the step's
+    /// start, and the weight of the second node.
     between: Vec<(usize, usize, f64)>,
 }
 
@@ -145,8 +148,8 @@ impl MonotoneStep {
         let between = (1..count).map(|k| {
             let [i, j] = [source * k / count, target * k / count];
             let [di, dj] = [source * k % count, target * k % count];
-            // One of the two remainders is 0, because the step advances sample by sample along its
-            // longer side.
+            // One of the two remainders is 0, because k counts the samples of the curve along which
+            // the step advances farther.
             let next_node = j * width + i + usize::from(di > 0) + width * usize::from(dj > 0);
             (j * width + i, next_node, di.max(dj) as f64 / count as f64)
         });

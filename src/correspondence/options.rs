@@ -16,7 +16,7 @@ pub struct MatchOptions {
     /// Weight of stretching (differing arc lengths) relative to bending (differing outlines), at
     /// least 0; 0.25 by default.
     pub stretch: f64,
-    /// Weight of differences in the shapes' thickness, at least 0; 1 by default.
+    /// Weight of differences in thickness between the shapes, at least 0; 1 by default.
     pub thickness: f64,
     /// Weight of differences in inner distances (lengths of shortest paths inside the shape), at
     /// least 0. With 0, the default, only the boundaries are compared. With a positive weight, no

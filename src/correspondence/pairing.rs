@@ -1,8 +1,8 @@
 //! Pairs the parts of two designs, and the holes of two parts.
 //!
-//! The pairing is an assignment of minimum cost in position, size, shape and appearance. It has as
-//! many pairs as the design with fewer parts has parts. The other design's remaining parts stay
-//! unmatched, at a cost that grows with their area. Pairs fixed by the user are preserved.
+//! The pairing is an assignment of minimum cost in position, size, shape and appearance. All parts
+//! of the design with fewer parts are paired. The other design's remaining parts stay unmatched, at
+//! a cost that grows with their area. Pairs fixed by the user are preserved.
 //!
 //! Guarantees: the assignment is optimal and deterministic, and pairing B with A gives the same
 //! result as pairing A with B. A part is never split into several.
@@ -144,8 +144,9 @@ struct PartFeatures {
 }
 
 impl PartFeatures {
-    /// Measures a part by its outer ring. `origin` and `size` are the centre and size of the
-    /// design, or of the part that contains a hole; `turn` is a rotation about `origin` in radians.
+    /// Measures a part by its outer ring, or a hole by its ring. `origin` and `size` are the centre
+    /// and the size of the design that contains the part, or of the part that contains the hole.
+    /// `turn` is a rotation about `origin` in radians.
     fn of(ring: &Ring, holes: usize, origin: DVec2, size: f64, turn: f64) -> Self {
         let moments = moments(ring);
         let area = ring.signed_area().abs();
@@ -165,7 +166,8 @@ impl PartFeatures {
         }
     }
 
-    /// Returns the cost of pairing two parts.
+    /// Returns the cost of pairing two parts, from their differences in position, size, shape and
+    /// appearance.
     fn pairing_cost(&self, other: &Self) -> f64 {
         let holes = (self.holes - other.holes).abs().min(2.0);
         let form = POSITION * self.position.distance(other.position)
@@ -249,8 +251,9 @@ fn pair(
         .cmp(&b.len())
         .then_with(|| lexicographic(keys(source, &a), keys(target, &b)));
     let mut pairs = fixed.to_vec();
-    // Every row is paired, so only columns are left over. Adding the unmatched cost of each column
-    // left over equals, up to a constant, subtracting the unmatched cost of each paired column.
+    // Every row is paired, so only columns can stay unmatched. The cost of all unmatched columns is
+    // a constant minus that of the paired columns. Each pair's cost is therefore reduced by the
+    // unmatched cost of its column.
     if order == Ordering::Greater {
         let unmatched_cost = unmatched_costs(source);
         let cost =

@@ -7,7 +7,7 @@
 //! in the two curves.
 
 /// Places (fractions of arc length) of consecutive samples of two curves, and the dissimilarities
-/// of all their pairs. Places are unwrapped over the seam.
+/// of all their pairs. Places of the second round are larger by 1.
 #[derive(Clone, Debug)]
 pub(super) struct PathGrid {
     /// Places of the source's samples, ascending.
@@ -48,7 +48,8 @@ pub(super) struct PathBuffers {
     previous: Vec<f64>,
     /// Minimum costs of the nodes in the current row; the cost of column i has index 1 + i.
     current: Vec<f64>,
-    /// Code of the last step of the cheapest path to each node in the windows, row after row.
+    /// For each node that was searched, row after row: code of the last step of the cheapest path
+    /// to this node.
     steps: Vec<u8>,
     /// Index in `steps` at which each row begins.
     starts: Vec<usize>,
@@ -112,9 +113,9 @@ impl PathGrid {
 
 impl StepCosts {
     /// Returns the cheapest path from column `start` of the first row to column `end` of the last
-    /// row, within a window of columns for each row. Windows include both of their ends, which must
-    /// not decrease from row to row. The search takes time proportional to the number of nodes in
-    /// the windows.
+    /// row. `window` returns the first and the last column that the path may visit in a row;
+    /// neither may decrease from row to row. The search takes time proportional to the number of
+    /// nodes that the path may visit.
     pub fn cheapest_path(
         &self,
         [start, end]: [usize; 2],
@@ -147,15 +148,15 @@ impl StepCosts {
             steps,
             ..
         } = scratch;
-        // The node to the left of the window is unreachable. Nodes to the right of the window still
-        // hold infinity from the reset.
+        // The node to the left of column `low` is unreachable. Nodes to the right of column `high`
+        // still hold infinity from the reset.
         current[low] = f64::INFINITY;
         let current = &mut current[1 + low..][..count];
         let row_start = steps.len();
         steps.resize(row_start + count, ALONG_BOTH);
         let steps = &mut steps[row_start..];
-        // First, the steps from the previous row. In this loop, the nodes of the row do not depend
-        // on each other.
+        // First take the steps from the previous row. In this loop, the nodes of the row do not
+        // depend on each other.
         let (left, straight) = (&previous[low..][..count], &previous[1 + low..][..count]);
         let (both, target) = (&self.both[first..][..count], &self.target[first..][..count]);
         for i in 0..count {
@@ -168,7 +169,8 @@ impl StepCosts {
             current[i] = if is_target { along_target } else { along_both };
             steps[i] = if is_target { ALONG_TARGET } else { ALONG_BOTH };
         }
-        // Then the steps along the row. In this loop, each node depends on the node to its left.
+        // Then take the steps along the row. In this loop, each node depends on the node to its
+        // left.
         let source = &self.source[first..][..count];
         let mut left_cost = f64::INFINITY;
         for i in 0..count {
@@ -195,8 +197,8 @@ impl PathBuffers {
     }
 }
 
-/// Traces the path back from its end. Returns the first and the last column that it visits in each
-/// row.
+/// Traces the cheapest path back from its end. Returns the first and the last column that the path
+/// visits in each row.
 fn trace(
     scratch: &PathBuffers,
     count: usize,
@@ -221,7 +223,7 @@ fn trace(
 }
 
 impl GridPath {
-    /// Returns the nodes in order, from the start to the end.
+    /// Returns the nodes `[column, row]` of the path in order.
     pub fn nodes(&self) -> Vec<[usize; 2]> {
         let row = |(j, &[first, last]): (usize, &[usize; 2])| (first..=last).map(move |i| [i, j]);
         self.rows.iter().enumerate().flat_map(row).collect()

@@ -8,8 +8,8 @@ use crate::geometry::SourceTarget;
 /// first point. [`BoundaryCurve::nearest`] converts a clicked point to a place.
 pub type Pin = SourceTarget<f64>;
 
-/// Error for pins that no continuous match can satisfy. Pins count from 0 in fields and from 1 in
-/// messages.
+/// Error for pins that no continuous match can satisfy. The indices of pins start at 0 in the
+/// fields and at 1 in messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PinError {
@@ -72,7 +72,7 @@ fn check_shared(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
 /// the longest consistent sequence, and a pin that it crosses.
 fn check_order(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
     let n = pins.len();
-    // In cyclic order, the target places decrease exactly once per round: at the seam.
+    // In cyclic order, the target places decrease exactly once per round: from near 1 to near 0.
     let decreases_after = |k: usize| pins[k].0[1] > pins[(k + 1) % n].0[1];
     if (0..n).filter(|&k| decreases_after(k)).count() <= 1 {
         return Ok(());

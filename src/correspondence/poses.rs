@@ -7,8 +7,9 @@ use rayon::prelude::*;
 
 /// Relative penalty on rotation: a path of cost c and rotation φ has the score c +
 /// (`RELATIVE_ROTATION_PENALTY` · c + `ROTATION_PENALTY`) · (1 − cos φ). The relative part decides
-/// near ties of dissimilar symmetric designs, such as two flowers with six petals. It vanishes if a
-/// design is matched with itself, which must succeed at any rotation (heuristic).
+/// between almost equal costs if both designs are symmetric but differ, such as two flowers with
+/// six petals. It vanishes if a design is matched with itself, which must succeed at any rotation
+/// (heuristic).
 const RELATIVE_ROTATION_PENALTY: f64 = 0.05;
 /// Absolute penalty on rotation, added to the relative one (heuristic).
 const ROTATION_PENALTY: f64 = 0.0005;
@@ -25,17 +26,18 @@ const MAX_POSES: usize = 5;
 /// pose (resource limit).
 const POSE_ROUNDS: usize = 3;
 
-/// Maximum score of a pose in the coarse search, as a multiple of the best score there, at which
-/// the pose is searched again with all samples (heuristic).
+/// A pose is searched again with all samples if its score in the coarse search is at most this
+/// multiple of the best score there (heuristic).
 const NEAR_TIE: f64 = 1.15;
 
-/// The search has converged if the rotation of the match it found differs from the pose it assumed
-/// by less than this angle, in radians (tolerance: about one degree).
+/// A search for a path has converged if the rotation of its match differs from the assumed pose by
+/// less than this angle, in radians (tolerance: about one degree).
 const SAME_POSE: f64 = 0.02;
 
 /// A closed path through sample pairs, and the dissimilarities for which the search found it.
 pub(super) struct PathSolution {
-    /// Pairs of sample indices `[source, target]` at unit steps, unwrapped over the seams.
+    /// Pairs of sample indices `[source, target]` at unit steps. The indices continue from round to
+    /// round.
     pub(super) nodes: Vec<[usize; 2]>,
     /// Dissimilarities of all sample pairs that the search used, one row for each target sample.
     pub(super) dissimilarity: Vec<f64>,
@@ -110,7 +112,8 @@ impl CurveMatchProblem {
         a.posed_dissimilarities(b, &invariant, 0.0, PoseWeights::FIXED)
     }
 
-    /// Returns the rotation-invariant dissimilarities.
+    /// Returns the dissimilarities that do not depend on a rotation, of all pairs of samples, one
+    /// row for each target sample.
     fn invariant_dissimilarities(&self) -> Vec<f64> {
         (self.source_features).dissimilarities(&self.target_features, self.thickness)
     }
@@ -145,7 +148,7 @@ impl CurveMatchProblem {
         poses
     }
 
-    /// Returns the path with the best score over all starting samples.
+    /// Returns the path with the lowest score over all starting samples.
     pub(super) fn best_path(&self, dissimilarities: Vec<f64>) -> PathSolution {
         let mut best: Option<PathSolution> = None;
         self.visit_paths(&dissimilarities, |cost, nodes| {
@@ -179,7 +182,7 @@ fn score(cost: f64, rotation: f64) -> f64 {
     cost + (RELATIVE_ROTATION_PENALTY * cost + ROTATION_PENALTY) * (1.0 - rotation.cos())
 }
 
-/// Returns the poses that are not close to an earlier one.
+/// Returns the poses, without those that are close to an earlier pose.
 fn distinct_poses(poses: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut distinct: Vec<f64> = Vec::new();
     for pose in poses {

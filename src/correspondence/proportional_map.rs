@@ -1,25 +1,25 @@
-//! Maps between the places of two matched curves so that straight sides stay straight. Also defines
-//! the vertices that the two polygons made from the curves will share.
+//! Mapping between the places of two matched curves that keeps straight sides straight. Also
+//! defines the vertices that the two polygons made from the curves will share.
 
 use super::boundary_match::interpolate_knots;
 use super::curve::BoundaryCurve;
 
-/// A pair of corresponding places (fractions of arc length) and their common parameter:
-/// `[source, target, parameter]`.
+/// A pair of corresponding places (fractions of arc length), and its parameter, which is the same
+/// on both curves: `[source, target, parameter]`.
 pub(super) type ParameterKnot = [f64; 3];
 
 /// Column of the common parameter in a [`ParameterKnot`].
 pub(super) const BOTH: usize = 2;
 
-/// A vertex that both polygons will have. It has one common parameter, and its own place on each
-/// curve on which it is a vertex or a pin.
+/// A vertex that both polygons will have. Its parameter is common to both polygons. It has its own
+/// place on each curve of which it is a vertex or a pin.
 #[derive(Clone, Copy)]
 pub(super) struct SharedVertex {
     /// Parameter of the vertex, common to both curves, in [0, 1).
     pub at: f64,
     /// Places on the source and on the target; `None` where the place follows from the parameter.
     pub places: [Option<f64>; 2],
-    /// Whether one of the outlines bends here, or a pin lies here.
+    /// Whether the vertex is a pin or a point at which one of the outlines bends.
     pub is_bend: bool,
 }
 
@@ -31,17 +31,17 @@ impl SharedVertex {
     }
 }
 
-/// Map between corresponding places that keeps straight sides straight: it is linear in arc length
-/// between fixed vertices (bends, pins, and vertices of both curves).
+/// Mapping between corresponding places that keeps straight sides straight: it is linear in arc
+/// length between fixed vertices (bends, pins, and vertices of both curves).
 pub(super) struct ProportionalMap {
-    /// Unwrapped places and parameters of the fixed vertices; the first vertex is repeated one
-    /// round later.
+    /// Places and parameters of the fixed vertices, ascending; the last vertex is the first one a
+    /// round later. Places and parameters increase by 1 with each round.
     bends: Vec<ParameterKnot>,
 }
 
 impl ProportionalMap {
-    /// Creates the map through those of `vertices` that are fixed. `places` returns the places of a
-    /// vertex, `[source, target]`.
+    /// Creates the mapping that connects those of `vertices` that are fixed. `places` returns the
+    /// places of a vertex, `[source, target]`.
     pub fn between(vertices: &[SharedVertex], places: impl Fn(&SharedVertex) -> [f64; 2]) -> Self {
         let mut bends: Vec<ParameterKnot> = Vec::with_capacity(vertices.len() + 1);
         for vertex in vertices.iter().filter(|vertex| vertex.is_fixed()) {
@@ -59,8 +59,8 @@ impl ProportionalMap {
         Self { bends }
     }
 
-    /// Gives each vertex that is not fixed the parameter at which the map reaches its place, and
-    /// sorts the vertices by parameter.
+    /// Gives each vertex that is not fixed the parameter at which the mapping reaches its place,
+    /// and sorts the vertices by parameter.
     pub fn placed_vertices(&self, mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
         for vertex in vertices.iter_mut().filter(|vertex| !vertex.is_fixed()) {
             let own = (0..2).find_map(|side| Some((side, vertex.places[side]?)));

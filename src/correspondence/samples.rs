@@ -1,28 +1,29 @@
 //! Chooses the places at which a curve is sampled: corners, pins, and evenly spaced places between
 //! them. A place is a fraction of the curve's arc length.
 //!
-//! A corner is a point where the direction jumps: its turning hardly decreases when the window
-//! becomes shorter. On a smooth bend the turning is proportional to the window, no matter how many
-//! vertices the bend has. Corner detection therefore does not depend on the outline's resolution.
+//! A corner is a point where the direction jumps: its turning hardly decreases when it is measured
+//! over a shorter section. On a smooth bend the turning is proportional to the length of the
+//! section, no matter how many vertices the bend has. Corner detection therefore does not depend on
+//! the outline's resolution.
 
 use super::curve::BoundaryCurve;
 
-/// Half-length of the window for corner detection, as a fraction of the curve's length: the edge
-/// length of an outline with about 140 equal edges (heuristic).
+/// Half-length of the section over which turning is measured to find corners, as a fraction of the
+/// curve's length: the edge length of an outline with about 140 equal edges (heuristic).
 const CORNER_REACH: f64 = 0.007;
 
 /// Minimum turning of a corner, in radians: 40° (heuristic).
 const CORNER_TURN: f64 = 0.7;
 
-/// Minimum fraction of a corner's turning that remains in a window of a quarter the size. A
-/// circular arc keeps 0.25, a jump 1; the threshold lies about halfway (heuristic).
+/// Minimum fraction of a corner's turning that remains if it is measured over a quarter of the
+/// length. A circular arc keeps 0.25, a jump 1; the threshold lies about halfway (heuristic).
 const CORNER_SHARPNESS: f64 = 0.6;
 
 /// Minimum gap between a corner and the next corner or pin, in sample spacings. Of corners that lie
 /// closer together, only the strongest becomes a sample (heuristic).
 const MIN_GAP: f64 = 0.5;
 
-/// Sample places of a curve, ascending.
+/// Places (fractions of the curve's length) at which a curve is sampled, ascending.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CurveSamples {
     pub places: Vec<f64>,
@@ -50,7 +51,8 @@ impl CurveSamples {
         self.places.binary_search_by(|p| p.total_cmp(&place)).ok()
     }
 
-    /// Returns the unwrapped index of the sample nearest to an unwrapped, non-negative place.
+    /// Returns the index of the sample nearest to a non-negative place. Places and indices continue
+    /// from round to round: with n samples, place 1 and index n are place 0 and sample 0 again.
     pub fn nearest(&self, place: f64) -> usize {
         let round = place.floor();
         let after = self.places.partition_point(|&p| p < place - round);
@@ -60,8 +62,8 @@ impl CurveSamples {
         after.checked_sub(1).filter(is_before).unwrap_or(after)
     }
 
-    /// Returns the unwrapped place of an unwrapped index: sample `index % n`, plus one for each
-    /// full round.
+    /// Returns the place of a sample whose index continues from round to round: the place of sample
+    /// `index % n`, plus one for each full round.
     pub fn unwrapped_place(&self, index: usize) -> f64 {
         let n = self.places.len();
         self.places[index % n] + (index / n) as f64
@@ -111,7 +113,7 @@ fn insert_unless_close(places: &mut Vec<f64>, place: f64, gap: f64) -> bool {
 }
 
 /// Returns the places of corners with their absolute turning in radians, strongest first. Points
-/// next to a corner, whose windows include it, are suppressed.
+/// next to a corner, whose turning includes that of the corner, are suppressed.
 pub(super) fn corners(curve: &BoundaryCurve) -> Vec<(f64, f64)> {
     let narrow_reach = 0.25 * CORNER_REACH;
     let is_corner = |&place: &f64| {
@@ -126,7 +128,7 @@ pub(super) fn corners(curve: &BoundaryCurve) -> Vec<(f64, f64)> {
     candidates
 }
 
-/// Returns the place of the vertex with the largest turning over a wide window.
+/// Returns the place of the vertex with the largest turning, measured over long sections.
 fn sharpest_bend(curve: &BoundaryCurve) -> f64 {
     let turn = |place: f64| curve.turning(place, 4.0 * CORNER_REACH).abs();
     let mut best = (f64::NEG_INFINITY, 0.0);

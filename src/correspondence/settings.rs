@@ -45,7 +45,7 @@ pub struct MatchSettings {
     /// Parts that must stay unmatched, even if the other design has a similar part.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lone: Vec<UnmatchedPart>,
-    /// Cuts that open the rings around holes.
+    /// Cuts that open parts at holes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cuts: Vec<RingCut>,
 }
@@ -68,8 +68,7 @@ pub struct UnmatchedPart {
     pub at: DVec2,
 }
 
-/// A straight cut from a hole to another boundary of its part, which opens the ring around the
-/// hole.
+/// A straight cut from a hole to another boundary of its part. The part opens along the cut.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RingCut {
@@ -81,7 +80,7 @@ pub struct RingCut {
     pub hole: DVec2,
 }
 
-/// Error: a coordinate of a setting is not finite, or is out of range. Indices count from 1 in
+/// Error: a coordinate of a setting is not finite, or is out of range. Indices start at 1 in
 /// messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what} {} {RANGE_MESSAGE}", index + 1)]
@@ -102,7 +101,7 @@ pub enum HoleRule {
     Auto,
     /// The hole closes to a point, or opens from one. The part deforms around it.
     Close,
-    /// The ring around the hole is cut open.
+    /// The part is cut open along a straight line from the hole to another boundary.
     Cut,
     /// The part moves as if it had no such hole. The hole shrinks to nothing or grows from nothing
     /// inside the part, without deforming it.

@@ -113,7 +113,8 @@ impl BoundaryMatch {
 /// Common parameter of both matched curves: the mean of the two arc lengths from the first knot,
 /// each a fraction of its curve's length; in [0, 1].
 struct CommonParameter {
-    /// Knots with unwrapped places, ascending; the first is repeated one round later.
+    /// Knots, ascending; the last one is the first one a round later. Places and parameters
+    /// increase by 1 with each round.
     knots: Vec<ParameterKnot>,
 }
 
@@ -130,8 +131,8 @@ impl CommonParameter {
             let [p, q] = [0, 1].map(|side| curves[side].point_at(k[side]));
             (p + q).dot(SEAM_DIRECTION)
         };
-        // Prefer shared vertices, so that the seam adds no vertex. The order is symmetric in the
-        // designs, so exchanging them gives exactly the same seam.
+        // Prefer a knot that is a vertex of both curves, so that the start adds no vertex. The
+        // order is symmetric in the designs, so exchanging them gives exactly the same start.
         let order = |a: &[f64; 2], b: &[f64; 2]| {
             let by_sharing = is_shared(b).cmp(&is_shared(a));
             by_sharing.then(projection(a).total_cmp(&projection(b)))
@@ -185,9 +186,10 @@ fn insert(knots: &mut Vec<ParameterKnot>, [a, b]: [f64; 2]) {
     }
 }
 
-/// Adds knots that merge pairs of vertices, one vertex of each curve. Two vertices are merged if,
-/// under the current knots, each is the vertex of its curve that is nearest to the other one, their
-/// parameters differ by at most `limit`, and both lie between the same two knots.
+/// Adds knots that merge pairs of vertices, one vertex of each curve. Two vertices are merged on
+/// three conditions: under the current knots, each is the vertex of its curve that is nearest to
+/// the other one; their parameters differ by at most `limit`; and both lie between the same two
+/// knots.
 fn merge_nearest(knots: &mut Vec<ParameterKnot>, parameters: &[Vec<f64>; 2], limit: f64) {
     let warped = [0, 1].map(|side| -> Vec<f64> {
         let warped = |&t: &f64| interpolate_knots(knots, t, [side, BOTH]);

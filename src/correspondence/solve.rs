@@ -33,16 +33,17 @@ impl CurveMatchProblem {
         }
     }
 
-    /// Converts the solution to a strictly monotone path. A path without pins is refined twice:
-    /// once cut open at its most distinctive node, and again cut open at the opposite node, so that
-    /// the first cut leaves no trace.
+    /// Converts the solution to a strictly monotone path. A closed path without pins is refined
+    /// twice: first from its most distinctive node, then from the opposite node. The second
+    /// refinement removes the traces of the fixed start of the first.
     fn strictly_monotone(&self, solution: &PathSolution) -> Vec<[usize; 2]> {
         let fixed = self.fixed_nodes();
         if fixed.is_empty() {
             let start = self.most_distinctive_node(solution);
             let first =
                 self.refine_section(solution, &self.rotated_to_start(&solution.nodes, start));
-            // The refined path has longer steps, so expand it to unit steps before the second cut.
+            // The refined path has longer steps, so expand it to unit steps before the second
+            // refinement.
             let expanded = unit_steps(&first);
             let far = first[first.len() / 2];
             return self.refine_section(solution, &self.rotated_to_start(&expanded, far));

@@ -37,7 +37,7 @@ fn across(found: &BoundaryMatch, place: f64) -> f64 {
     // The last knot at or before the place, cyclically.
     let k = (knots.partition_point(|knot| knot[0] <= place) + n - 1) % n;
     let (from, to) = (knots[k], knots[(k + 1) % n]);
-    // A single knot is one round away from itself.
+    // If there is only one knot, the gap is a whole round.
     let gap = |side: usize| match (to[side] - from[side]).rem_euclid(1.0) {
         0.0 => 1.0,
         gap => gap,

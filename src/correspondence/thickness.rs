@@ -48,9 +48,9 @@ pub(super) fn log_thickness(curve: &BoundaryCurve, places: &[(f64, f64)]) -> Vec
     subtract_mean(places.iter().map(log_at).collect(), places)
 }
 
-/// Subtracts the mean along the curve from the values, which are relative to the square root of the
-/// area. Otherwise a design with longer limbs of the same thickness, which has a larger area, would
-/// count as thinner.
+/// Subtracts from each logarithm the mean along the curve. Thickness is in units of the square root
+/// of the area, so a design with longer limbs of the same thickness, which has a larger area, would
+/// otherwise count as thinner.
 fn subtract_mean(mut values: Vec<f64>, places: &[(f64, f64)]) -> Vec<f64> {
     let n = values.len();
     let gap = |from: usize, to: usize| (places[to].0 - places[from].0).rem_euclid(1.0);

@@ -1,10 +1,10 @@
 //! Flattens Bézier paths into closed polygons.
 //!
-//! Let a Bézier curve of degree d be cut into n pieces at equally spaced parameters. The distance
-//! of each piece from its chord is at most d (d − 1) / (8 n²) times the largest second difference
-//! of the control points (Wang 1984). The number of pieces is therefore known in advance, and the
+//! Let a Bézier curve of degree d be divided into n arcs at equally spaced parameters. The distance
+//! of each arc from its chord is at most d (d − 1) / (8 n²) times the largest second difference of
+//! the control points (Wang 1984). The number of chords is therefore known in advance, and the
 //! error is bounded, not estimated. The bound does not hold for curves that would need more than
-//! [`MAX_PIECES`] pieces: at the default tolerance, curves thousands of pages long.
+//! [`MAX_PIECES`] chords: at the default tolerance, curves thousands of pages long.
 
 use crate::geometry::DVec2;
 use usvg::tiny_skia_path::{Path, PathSegment, Point};
@@ -16,7 +16,7 @@ pub(super) const MAX_POINTS: usize = 2_000_000;
 /// of the `f32` coordinates in SVG drawings).
 pub(super) const MIN_TOLERANCE: f64 = 1e-7;
 
-/// Maximum number of pieces per curve (resource limit: even at [`MIN_TOLERANCE`], a cubic curve
+/// Maximum number of chords per curve (resource limit: even at [`MIN_TOLERANCE`], a cubic curve
 /// needs more only if the second differences of its control points exceed twice the page's longer
 /// side).
 const MAX_PIECES: f64 = 4096.0;
@@ -96,7 +96,7 @@ impl Flattener {
     /// bound of the length of its second derivative.
     fn curve(&self, ring: &mut Vec<DVec2>, [b, c, d]: [DVec2; 3], bend: f64) {
         let a = ring.last().copied().unwrap_or(b);
-        // Number of pieces by Wang's bound. `bend` is d (d − 1) times the second difference.
+        // Number of chords by Wang's bound. `bend` is d (d − 1) times the second difference.
         let pieces = (bend / (8.0 * self.tolerance)).sqrt().ceil();
         let pieces = pieces.clamp(1.0, MAX_PIECES) as u32;
         ring.extend((1..pieces).map(|k| {

@@ -144,8 +144,8 @@ impl Design {
         })
     }
 
-    /// Returns the design transformed by a similarity. The extent becomes the bounding
-    /// box of its transformed corners.
+    /// Returns the design transformed by a similarity. The new extent is the bounding box of the
+    /// transformed corners of the old extent.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
         let corners = self.extent.corners().map(|p| by.apply(p));
@@ -262,7 +262,8 @@ fn union_of(rings: &[Vec<DVec2>]) -> Result<Regions, RegionsError> {
     Regions::from_rings(&both, FillRule::NonZero)
 }
 
-/// Returns the outline of all points within `radius` of a segment, counter-clockwise.
+/// Returns the outline of all points within `radius` of the line segment from `a` to `b`,
+/// counter-clockwise.
 fn capsule(a: DVec2, b: DVec2, radius: f64) -> Vec<DVec2> {
     // The direction is defined: a truss rejects bars of zero length.
     let along = (b - a).to_angle();

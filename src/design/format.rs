@@ -1,7 +1,7 @@
 //! The table of importable file formats: display names and file extensions.
 //!
-//! File dialogs, the command line and messages use it. It says nothing about a file's
-//! content; [`sniff`](super::sniff()) recognises that.
+//! File dialogs, the command line and messages use this table. To recognise a format by the content
+//! of a file, use [`sniff`](super::sniff()).
 
 use image::ImageFormat;
 use std::path::Path;
@@ -32,7 +32,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Picture formats.
+    /// All picture formats: PNG, JPEG, BMP and WebP.
     pub const PICTURES: &'static [Self] = Self::ALL.split_at(4).0;
 
     /// All formats, pictures first.

@@ -129,7 +129,7 @@ fn check_characters(font: &FontRef, text: &str) -> Result<(), TextError> {
 
 /// Line of text after shaping, in design units.
 struct TextLine {
-    /// Glyphs with the positions of their origins.
+    /// Glyphs with the positions of their origins, in design units.
     glyphs: Vec<(GlyphId, DVec2)>,
     /// Design units per font unit.
     scale: f64,
@@ -148,7 +148,8 @@ impl TextLine {
         let data = ShaperData::new(font);
         let mut buffer = UnicodeBuffer::new();
         buffer.push_str(text);
-        // Detects script and direction; without it, Arabic would run left to right.
+        // This call detects the script and its direction; without it, Arabic would run left to
+        // right.
         buffer.guess_segment_properties();
         let shaper = data.shaper(font).build();
         let shaped = shaper.shape(buffer, ShapeOptions::new());
@@ -156,8 +157,8 @@ impl TextLine {
         if letters.any(|letter| letter.len() > 1 + MAX_MARKS) {
             return Err(TextError::TooManyMarks);
         }
-        // Height of the page's lower edge relative to the baseline, in font units. At most 0,
-        // because some fonts claim a descent above the baseline.
+        // Height of the page's lower edge relative to the baseline, in font units. It is limited to
+        // at most 0, because some fonts claim a descent above the baseline.
         let below = f64::from(metrics.descent).min(0.0);
         let mut pen = DVec2::new(0.0, -below);
         let positions = shaped.glyph_positions().iter();
@@ -187,8 +188,8 @@ impl TextLine {
 
     /// Converts the glyphs to outlines and unites them.
     fn to_outlines(&self, font: &FontRef, tolerance: f64) -> Result<ImportedOutlines, TextError> {
-        // The tolerance refers to at least one em, so that a single narrow letter is not flattened
-        // more finely than others.
+        // The tolerance is a fraction of the page's longer side, but of at least one em, so that a
+        // single narrow letter is not flattened more finely than others.
         let longer = self.page.size().max_element().max(EM);
         let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * longer);
         let glyphs = font.outline_glyphs();

@@ -69,7 +69,7 @@ pub enum ImportNote {
         /// Stored width and height in pixels.
         kept: (u32, u32),
     },
-    /// Flat colours were requested as parts, but the picture has no flat colours.
+    /// Separate paint layers for flat colours were requested, but the picture has no flat colours.
     NoFlatColours,
     /// Curves that do not close were ignored.
     OpenCurves {

@@ -5,10 +5,10 @@
 //! give the same connectivity. OBJ crates that renumber vertices by first use or per texture
 //! coordinate do not guarantee this, and lose the numbers that error messages need.
 //!
-//! Faces with more than three vertices are cut into a fan about their first vertex. Unlike a better
-//! triangulation, a fan does not depend on the positions, so two files with the same `f` lines get
-//! the same triangles. A fan requires nearly convex faces. The orientation of the faces is not
-//! checked here, but when two meshes are paired.
+//! Faces with more than three vertices are divided into a fan of triangles about their first
+//! vertex. Unlike a better triangulation, a fan does not depend on the positions, so two files with
+//! the same `f` lines get the same triangles. A fan requires nearly convex faces. The orientation
+//! of the faces is not checked here, but when two meshes are paired.
 
 use crate::geometry::{DVec2, RANGE_MESSAGE, is_in_range};
 use crate::mesh::{MeshError, TriangleMesh};
@@ -23,7 +23,7 @@ pub enum ObjError {
     Line {
         /// Number of the line, counted from 1.
         line: usize,
-        /// Fault of the line.
+        /// Reason why the line cannot be used.
         fault: ObjFault,
     },
     /// A vertex belongs to no face. Holds the number of the vertex.

@@ -20,7 +20,7 @@ pub struct ImportOptions {
     /// of the picture or page: 0 to 0.1. Limits the maximum deviation in drawings and text, and
     /// approximately the mean deviation in pictures.
     pub tolerance: f64,
-    /// Whether each flat colour of a picture becomes a separate part.
+    /// Whether the flat colours of a picture are imported as separate paint layers.
     #[serde(skip_serializing_if = "is_unset")]
     pub colours: bool,
     /// Whether the strokes of a drawing are part of its outline. Strokes are always

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// Regions of one layer do not overlap each other. Each layer covers the layers before it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaintLayer {
-    /// Filled area.
+    /// Area that is filled with the paint.
     pub regions: Regions,
     /// Colour and opacity of the fill, or `None` if the file gives these regions no colour.
     pub paint: Option<Paint>,
@@ -46,7 +46,7 @@ impl PaintLayer {
 
 /// All regions that a file fills with one paint, without a stacking order.
 pub(super) struct PaintGroup {
-    /// Filled area.
+    /// Area that is filled with the paint.
     pub regions: Regions,
     /// Colour and opacity, or `None` if the file gives no colour.
     pub paint: Option<Paint>,
@@ -56,10 +56,10 @@ pub(super) struct PaintGroup {
 
 /// Stacks regions without an order into paint layers, so that no region hides a region inside it.
 ///
-/// A piece is one region of a group. Its height in the stack is its nesting depth: 0 if no piece of
-/// another group contains it, otherwise one more than the height of the highest such piece. At
-/// equal height, the layer with the smaller area is on top. Returns no layers if no group has a
-/// colour.
+/// The height of a region in the stack is its nesting depth: 0 if no region of another group
+/// contains it, otherwise one more than the height of the highest region of another group that
+/// contains it. At equal height, the layer with the smaller area is on top. Returns no layers if no
+/// group has a colour.
 pub(super) fn stack_by_containment(groups: &[PaintGroup]) -> Vec<PaintLayer> {
     if groups.iter().all(|group| group.paint.is_none()) {
         return Vec::new();
@@ -95,21 +95,21 @@ pub(super) fn stack_by_containment(groups: &[PaintGroup]) -> Vec<PaintLayer> {
     layers.into_iter().map(|(_, layer)| layer).collect()
 }
 
-/// Piece of a group with its height in the stack.
+/// Region of a group, with its height in the stack of paint layers.
 struct StackedPiece {
-    /// Index of the piece's group in the list of groups.
+    /// Index of the region's group in the list of groups.
     group: usize,
-    /// Index of the piece within the group.
+    /// Index of the region within its group.
     number: usize,
-    /// Nesting depth of the piece in pieces of other groups; 0 at the bottom.
+    /// Nesting depth of the region in regions of other groups; 0 at the bottom.
     height: usize,
 }
 
-/// Maximum number of pieces that are tested for nesting, pair by pair; if there are more, all get
+/// Maximum number of regions that are tested for nesting, pair by pair; if there are more, all get
 /// height 0 (resource limit).
 const MAX_COMPARED: usize = 20_000;
 
-/// Returns all pieces of all groups with their heights, largest area first.
+/// Returns all regions of all groups with their heights, largest area first.
 fn pieces_with_heights(groups: &[PaintGroup]) -> Vec<StackedPiece> {
     let pieces_of = |(group, of): (usize, &'_ PaintGroup)| -> Vec<(usize, usize)> {
         (0..of.regions.len())
@@ -125,7 +125,7 @@ fn pieces_with_heights(groups: &[PaintGroup]) -> Vec<StackedPiece> {
     pieces.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut heights = vec![0; pieces.len()];
     if pieces.len() <= MAX_COMPARED {
-        // Only larger pieces, which come earlier, can contain a piece.
+        // Only larger regions, which come earlier, can contain a region.
         for inner in 0..pieces.len() {
             let (bounds, _, region, (group, _)) = pieces[inner];
             let hosts = pieces[..inner].iter().zip(&heights).filter(|(host, _)| {
@@ -143,8 +143,8 @@ fn pieces_with_heights(groups: &[PaintGroup]) -> Vec<StackedPiece> {
     placed.collect()
 }
 
-/// Returns whether most of the outline of `inner` lies in `outer`, judged from about 16 of
-/// its points.
+/// Returns whether most of the outline of `inner` lies in `outer`, judged from about 16 points of
+/// that outline.
 fn is_within(inner: &Region, outer: &Region) -> bool {
     let points = inner.outer.points();
     let sample = points.iter().step_by(points.len().div_ceil(16).max(1));
@@ -175,7 +175,8 @@ mod tests {
 
     #[test]
     fn a_nested_dot_stays_visible_when_its_colour_is_large_elsewhere() {
-        // A black pupil with a white highlight, and a large white wall with a black dot.
+        // A small dot lies on a large square of the other colour: a white highlight on a black
+        // pupil, and a black dot on a white wall.
         let groups = [
             group("black", &[[0.0, 0.0, 10.0], [60.0, 0.0, 2.0]]),
             group("white", &[[4.0, 4.0, 1.0], [50.0, -20.0, 40.0]]),

@@ -1,4 +1,4 @@
-//! The [`Picture`] of a design: its pixels and their placement in the plane.
+//! The [`Picture`] of a design: its pixels and the similarity that places them in the plane.
 
 use crate::geometry::{Bounds, DVec2, Similarity};
 use image::RgbaImage;
@@ -41,8 +41,8 @@ impl Picture {
     }
 
     /// Creates a picture as [`Self::new`] does, but halves the resolution until at most
-    /// [`MAX_STORED_PIXELS`] remain. The placement scales the picture up, so that it covers the
-    /// same area as before.
+    /// [`MAX_STORED_PIXELS`] remain. The picture is then scaled up, so that it covers the same area
+    /// as before.
     pub(super) fn downscaled(mut pixels: RgbaImage) -> Self {
         let mut scale = 1.0;
         while u64::from(pixels.width()) * u64::from(pixels.height()) > MAX_STORED_PIXELS {
@@ -66,7 +66,7 @@ impl Picture {
         &self.pixels
     }
 
-    /// Returns the map from the picture's own coordinates to the plane.
+    /// Returns the similarity that transforms the picture's own coordinates to the plane.
     #[must_use]
     pub fn place(&self) -> &Similarity {
         &self.place

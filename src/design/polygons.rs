@@ -99,7 +99,7 @@ fn colour(text: &str) -> Option<Rgb> {
     format!("#{six_digits}").parse().ok()
 }
 
-/// Collects polygons while the document is traversed.
+/// Polygons and their styles, collected while the document is traversed.
 #[derive(Default)]
 struct PolygonCollector {
     /// Polygons, each a list of rings.
@@ -240,8 +240,7 @@ impl PolygonCollector {
 }
 
 /// Returns one paint layer for each entry of `styled`, a run of consecutive features with the same
-/// style. The first run is at the bottom, as on a map. Returns no layers if no feature has a
-/// colour.
+/// style. The first run is at the bottom. Returns no layers if no feature has a colour.
 fn layers_by_style(styled: Vec<(FeatureStyle, Vec<JsonRing>)>) -> Vec<PaintLayer> {
     if styled.iter().all(|(style, _)| style.paint.is_none()) {
         return Vec::new();

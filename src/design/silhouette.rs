@@ -50,7 +50,7 @@ pub enum SilhouetteError {
     /// All pixels have the same grey level, so no threshold separates them.
     #[error("the picture has a single grey level; use one with a figure in front of a background")]
     OneTone,
-    /// No pixel belongs to the figure, or all specks were removed.
+    /// The figure has no pixels, or only islands that are smaller than the speck size.
     #[error(
         "the silhouette is empty at threshold {threshold}; change the threshold, lower the speck size or invert the picture"
     )]
@@ -178,7 +178,7 @@ fn is_jpeg_complete(bytes: &[u8]) -> bool {
 /// [`SilhouetteError`] if the picture is empty, too large, incomplete or damaged.
 pub(super) fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, SilhouetteError> {
     if format == ImageFormat::Jpeg && !is_jpeg_complete(bytes) {
-        // The decoder would silently fill the missing part with grey.
+        // The decoder would silently fill the missing rows with grey.
         return Err(SilhouetteError::Truncated);
     }
     // The PNG decoder reports the size only after it has found pixel data, so the size is read from
@@ -228,8 +228,10 @@ fn classify_decode_error(error: ImageError) -> SilhouetteError {
 }
 
 /// Signed samples at the pixel centres, lowest row first: positive in the figure, negative in the
-/// background, never zero. The magnitude says how clearly a pixel belongs to its side: the distance
-/// of its opacity or grey level from the threshold, or a share up to 1 for flat colours.
+/// background, never zero. The magnitude says how clearly a pixel belongs to figure or background:
+/// the distance of its opacity or grey level from the threshold, or |b − a| / (a + b) in a picture
+/// of flat colours. There, a is the distance of the pixel's colour from the traced flat colour, and
+/// b its distance from the closest other flat colour.
 struct FigureSamples {
     width: u32,
     height: u32,

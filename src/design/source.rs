@@ -44,10 +44,10 @@ pub enum DesignSource {
     },
 }
 
-/// Prefix of a text source.
+/// Prefix that marks a source as text.
 const GLYPH: &str = "glyph:";
 
-/// File extensions by which the part after the last `@` is recognised as a font file. Web fonts are
+/// File extensions by which the text after the last `@` is recognised as a font file. Web fonts are
 /// included so that they cause an error; otherwise their file name would be drawn as text.
 const FONTS: [&str; 6] = ["ttf", "otf", "ttc", "otc", "woff", "woff2"];
 
@@ -160,7 +160,7 @@ impl DesignSource {
     }
 }
 
-/// Parses the part after `glyph:`: the text and, if given, the font.
+/// Parses the notation after `glyph:`: the text and, if given, the font.
 fn parse_text(written: &str) -> DesignSource {
     let is_font = |path: &str| {
         let extension = Path::new(path).extension().and_then(|e| e.to_str());

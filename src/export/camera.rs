@@ -25,8 +25,8 @@ use super::view::PlaneView;
 /// holds 32 frames of 1920 × 1080).
 pub const BATCH_BYTES: u64 = 256 << 20;
 
-/// Maximum number of evenly spaced frames from which [`framing`] determines the part of the plane
-/// to show, in addition to the last frame (heuristic).
+/// Maximum number of evenly spaced frames that [`framing`] samples, not counting the last frame
+/// (heuristic).
 const FRAMING_SAMPLES: usize = 33;
 
 /// Name of the progress stage in which frames are drawn.

@@ -6,17 +6,15 @@ use crate::colour::{Paint, Rgb};
 use crate::geometry::DVec2;
 use crate::transition::TransitionStop;
 
-/// Distance in t up to which a caption is fully opaque, measured from the t of the caption. It is a
-/// fraction of the distance to the midpoint between this caption and its neighbour on that side
-/// (heuristic).
+/// Share of the way from a caption's t to the midpoint between this caption and its neighbour.
+/// Within this share, the caption is fully opaque (heuristic).
 const OPAQUE_UNTIL: f64 = 0.5;
 
-/// Distance in t beyond which a caption is hidden, measured from the t of the caption. It is a
-/// fraction of the distance to the midpoint between this caption and its neighbour on that side
-/// (heuristic).
+/// Share of the way from a caption's t to the midpoint between this caption and its neighbour.
+/// Beyond this share, the caption is hidden (heuristic).
 const HIDDEN_FROM: f64 = 0.9;
 
-/// Captions with the times at which they appear, and their colour.
+/// Captions with the t of each, and their colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Captions {
     /// The t and the text of each caption, by ascending t.

@@ -65,8 +65,8 @@ impl SheetLayout {
         }
     }
 
-    /// Arranges a grid of `columns` × `rows` cells (both at least 1) that show `bounds`, in the
-    /// given size or as large as the cells need.
+    /// Arranges a grid of `columns` × `rows` cells (both at least 1) that show `bounds`. The sheet
+    /// has the given size; without one, it is as large as the cells need.
     pub fn grid([columns, rows]: [usize; 2], bounds: Bounds, size: Option<PixelSize>) -> Self {
         let (columns, rows) = (columns.max(1), rows.max(1));
         // A large grid is viewed as a whole, so its labels must be legible from farther away.
@@ -114,7 +114,7 @@ impl SheetLayout {
         let corner = place * whole + DVec2::splat(0.5 * self.gap_px);
         let inner = whole - DVec2::new(self.gap_px, self.gap_px + self.label_px);
         let base = corner + DVec2::new(0.5 * inner.x, inner.y + 0.8 * self.label_px);
-        // On a sheet of a few pixels, the size could be 0 or negative.
+        // On a sheet of a few pixels, the size of the image could be 0 or negative.
         (corner, inner.max(DVec2::ONE), base)
     }
 }

@@ -103,7 +103,7 @@ pub struct Drawing {
     pub ground: Option<Rgb>,
     /// Shapes in painting order, the lowest first.
     pub items: Vec<DrawingItem>,
-    /// Map from the plane to pixels if the drawing shows one frame, `None` for sheets.
+    /// Mapping from the plane to pixels if the drawing shows one frame, `None` for sheets.
     pub view: Option<PlaneView>,
 }
 
@@ -204,8 +204,8 @@ impl Drawing {
             let bars = inked.bars.iter().map(|&bar| figure.bars[bar]);
             let segments: Vec<[DVec2; 2]> = bars
                 .map(|bar| bar.map(|p| view.to_px(p)))
-                // Bars far outside the image are omitted, as rings are, because 32-bit rasterisers
-                // lose all precision there.
+                // Bars far outside the image are omitted, as outlines are, because 32-bit
+                // rasterisers lose all precision there.
                 .filter(|bar| bar.iter().copied().all(is_drawable))
                 .collect();
             (segments, style.paint_at(inked.paints, t).colour)
@@ -336,7 +336,7 @@ impl Drawing {
     }
 }
 
-/// Converts rings of the plane to closed contours in pixels.
+/// Converts boundary loops in the plane to closed contours in pixels.
 fn outline_of(rings: &[Vec<DVec2>], view: &PlaneView) -> OutlinePath {
     let mut outline = OutlinePath::default();
     for ring in rings {

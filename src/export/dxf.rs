@@ -76,7 +76,7 @@ pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
 
 /// Conversion from pixels (y down) to the coordinates of the document (y up).
 struct DxfCoordinates {
-    /// Map between the plane and pixels; if `None`, coordinates stay in pixels.
+    /// Mapping between the plane and pixels; if `None`, coordinates stay in pixels.
     view: Option<PlaneView>,
     height_px: f64,
 }
@@ -147,7 +147,7 @@ fn rings(outline: &OutlinePath) -> Vec<Vec<DVec2>> {
     rings
 }
 
-/// Returns the curve parameters in (0, 1] at which the segments of a flattened curve end.
+/// Returns the curve parameters in (0, 1] at which the line segments of a flattened curve end.
 fn shares() -> impl Iterator<Item = f64> {
     (1..=CURVE_SEGMENTS).map(|k| k as f64 / CURVE_SEGMENTS as f64)
 }

@@ -231,8 +231,9 @@ impl FilmSpec {
         self.times.chunk_by(|a, b| a == b).map(run_of).collect()
     }
 
-    /// Returns the duration of a run in whole ticks of 1 / `ticks_per_sec` seconds. Start and end
-    /// times are rounded instead of durations, so no drift accumulates.
+    /// Returns the duration of a run in whole ticks of 1 / `ticks_per_sec` seconds. The start and
+    /// the end of the run are rounded, not its duration, so that rounding errors do not accumulate
+    /// over the film.
     pub fn ticks(&self, run: FrameRun, ticks_per_sec: f64) -> u64 {
         // Ticks are counted from the start of the whole film, so that ranges of it join without
         // gaps.

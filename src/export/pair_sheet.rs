@@ -56,7 +56,7 @@ pub struct PairStrip {
     /// Remark below the name, or the error message of a failed pair.
     remark: String,
     is_bad: bool,
-    /// Figure of each frame, with its t.
+    /// For each frame: its vector shapes, and its t.
     frames: Vec<(VectorFigure, f64)>,
     style: TransitionStyle,
     bounds: Option<Bounds>,
@@ -196,7 +196,7 @@ impl PairSheetLayout {
 }
 
 /// Draws strips one below the other, in one or more blocks next to each other. Returns the drawing
-/// and the number of strips on it, which is all of them unless there are thousands.
+/// and the number of strips that fit on it; only with thousands of strips, some do not fit.
 ///
 /// # Errors
 /// [`PixelSizeError`] if a single strip has more frames than fit on a sheet.

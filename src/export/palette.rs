@@ -33,7 +33,7 @@ impl GifPalette {
             let error = |i: &usize| boxes[*i].error;
             let worst = (0..boxes.len()).max_by(|a, b| error(a).total_cmp(&error(b)));
             // There are more colours than boxes, so the box with the largest error holds at least
-            // two colours and can be cut.
+            // two colours and can be split.
             let Some((low, high)) = worst.and_then(|i| boxes.swap_remove(i).cut()) else {
                 break;
             };

@@ -31,8 +31,8 @@ pub fn write_numbered(
     fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
     atomic_file::remove_leftovers(&names.folder);
     let mut written = Vec::with_capacity(film.times().len());
-    // This path appears in encoding errors. They depend only on the image size, so the path of the
-    // first frame represents all.
+    // Encoding errors depend only on the image size, so all of them name the path of the first
+    // frame.
     let first = names.path(film.first_number());
     camera.draw_runs(
         &film.runs(),

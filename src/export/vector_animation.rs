@@ -2,10 +2,11 @@
 //! and Lottie.
 //!
 //! A [`VectorAnimation`] records the drawings of a camera as polynomials in t, just as a
-//! [`Recording`](crate::recording::Recording) does for a warp. It consists of pieces (intervals of
-//! t). Within a piece the set of shapes is constant, and each point follows a Chebyshev series.
-//! From one piece to the next, shapes may appear or disappear. All three formats are written from
-//! the same pieces: the HTML page evaluates the series, and the others use keyframes.
+//! [`Recording`](crate::recording::Recording) does for a warp. It consists of animation pieces
+//! (intervals of t). Within a piece the set of shapes is constant, and each point follows a
+//! Chebyshev series. From one piece to the next, shapes may appear or disappear. All three formats
+//! are written from the same pieces: the HTML page evaluates the series, and the others use
+//! keyframes.
 //!
 //! Guarantees: at every tested moment each point is within [`VectorAnimation::TOLERANCE_PX`] of
 //! where the camera draws it, in the recording and in the files written from it. Limits: contours
@@ -15,7 +16,7 @@
 //! - `shape`: splits a shape into its constant and its moving data
 //! - `chebyshev`: Chebyshev series of points; `piece`: shapes between two times
 //! - `record`: turns drawings into pieces; `simplify`: removes superfluous polygon points;
-//!   `animation`: the animation made by both
+//!   `animation`: the recorded and simplified pieces of a whole film
 //! - `timeline`: timeline of the film; `keyframes`: fewest keyframes for linear interpolation;
 //!   `tracks`: shapes over time with their keyframes
 //! - `smil`, `lottie`, `page`: writers of the three formats; `two_point_gradient`: gradients in the

@@ -1,4 +1,4 @@
-//! Map between the plane of the designs (y up) and pixels (y down).
+//! Mapping between the plane of the designs (y up) and pixels (y down).
 
 use crate::geometry::{Bounds, DAffine2, DVec2};
 

@@ -4,7 +4,7 @@
 //! (Rosenfeld and Pfaltz 1966, Montanari 1968, Borgefors 1986). The steps of a shortest path can be
 //! reordered so that the two passes follow it, so results are exact in these metrics up to the
 //! rounding of √2. The same two passes compute the distances of inside and of outside cells,
-//! because a neighbour on the other side counts as distance 0.
+//! because an outside neighbour of an inside cell counts as distance 0, and vice versa.
 
 use super::Mask;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
@@ -45,23 +45,24 @@ pub(super) fn distances(
     Ok(cells.map(|i| lengths.signed_distance(i)).collect())
 }
 
-/// Sides and unsigned distances of the cells of a mask and of a ring of outside cells around it, in
-/// row-major order.
+/// Working data of the two passes: for each cell of a mask, and for a border of outside cells
+/// around the mask, whether the cell is inside, and its unsigned distance. Cells are in row-major
+/// order.
 struct ChamferDistances {
     /// Whether each cell is inside.
     sides: Vec<bool>,
-    /// Distance from the centre of each cell to the centre of the nearest cell of the other side,
-    /// an upper bound until both passes are done.
+    /// Distance from the centre of each cell to the centre of the nearest cell on the other side of
+    /// the boundary. It is an upper bound until both passes are done.
     lengths: Vec<f64>,
-    /// Number of cells in a row, including the two cells of the ring.
+    /// Number of cells in a row, including the border of one outside cell at each end.
     stride: usize,
 }
 
 impl ChamferDistances {
-    /// Copies the sides from `mask` and sets all distances to infinity.
+    /// Copies from `mask` which cells are inside, and sets all distances to infinity.
     fn of(mask: &Mask) -> Self {
         let (width, height) = (mask.width() as usize, mask.height() as usize);
-        // The ring of outside cells makes border checks unnecessary.
+        // The border of outside cells makes checks for the edge of the mask unnecessary.
         let stride = width + 2;
         let cells = stride * (height + 2);
         let mut distances = Self {
@@ -76,7 +77,7 @@ impl ChamferDistances {
         distances
     }
 
-    /// Indices of the cells in row `y` of the mask, without the ring.
+    /// Indices of the cells in row `y` of the mask, without the border of outside cells.
     fn row(&self, y: usize) -> Range<usize> {
         let first = (y + 1) * self.stride + 1;
         first..first + self.stride - 2
@@ -101,7 +102,7 @@ impl ChamferDistances {
 
     /// Signed distance of cell `i` from the boundary: positive inside, negative outside.
     fn signed_distance(&self, i: usize) -> f32 {
-        // The boundary lies half a cell before the centre of the nearest cell of the other side.
+        // The boundary lies half a cell before the centre of the nearest cell on its other side.
         let distance = (self.lengths[i] - 0.5) as f32;
         if self.sides[i] { distance } else { -distance }
     }

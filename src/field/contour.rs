@@ -60,8 +60,8 @@ where
     trace_with_known(width, height, |_, _| None, value, level)
 }
 
-/// Same as [`trace`], except that `known(column, row)` may return whether a sample is inside, so
-/// that `value` need not be evaluated to find out. The answer of `known` must agree with `value`.
+/// Same as [`trace`], except that `known(column, row)` may return whether a sample is inside, in
+/// agreement with `value`. If it returns `None`, `value` is evaluated.
 pub(crate) fn trace_with_known<F>(
     width: u32,
     height: u32,
@@ -104,9 +104,9 @@ type LatticeEdge = usize;
 /// and the edge where it leaves. The inside is on the left of the segment.
 type ContourSegment = (LatticeEdge, LatticeEdge);
 
-/// Function to trace on the lattice of samples. The lattice is extended by two nodes on each side,
-/// both on the border of the picture. The outer one always counts as outside, so that every contour
-/// closes.
+/// Function to trace on the lattice of samples. The lattice is extended by two nodes on each side.
+/// Both nodes lie on the border of the picture; the outer one always counts as outside, so that
+/// every contour closes.
 struct MarchingSquares<K, F> {
     columns: usize,
     rows: usize,

@@ -5,10 +5,10 @@
 //! of parabolas along each row.
 //!
 //! The same two passes compute the distances of inside and of outside cells, because a cell only
-//! needs the nearest cell of the other side. A row is divided into runs: maximal sequences of cells
-//! that are all inside or all outside. The two cells that adjoin a run at its ends are on the other
-//! side, and no cell in a column beyond them can be nearer to a cell of the run. Each run therefore
-//! has its own envelope.
+//! needs the nearest cell on the other side of the boundary. A row is divided into runs: maximal
+//! sequences of cells that are all inside or all outside. The two cells that adjoin the ends of a
+//! run are on the other side, and no cell in a column beyond them can be nearer to a cell of the
+//! run. Each run therefore has its own envelope.
 //!
 //! Guaranteed: all squared distances are exact integers; only the final square root is rounded.
 
@@ -27,8 +27,8 @@ const STRIP: usize = 64;
 /// checked once per band (resource limit).
 const BAND_ROWS: usize = 16;
 
-/// Column distance of a cell whose column has no cell on the other side. Its square exceeds every
-/// valid squared distance, and the sum of both fits in an `i32`.
+/// Stored distance of a cell whose column has no cell on the other side of the boundary. Its square
+/// exceeds every valid squared distance, and the sum of both fits in an `i32`.
 const NONE: i16 = i16::MAX;
 
 /// Computes the signed Euclidean distances of all cells of `mask` in row-major order.
@@ -58,9 +58,9 @@ pub(super) fn distances(mask: &Mask, progress: &dyn Progress) -> Result<Vec<f32>
     Ok(out)
 }
 
-/// First pass: returns the distance of each cell to the nearest cell of the other side in its
-/// column, strip by strip; [`NONE`] if there is no such cell. The outside cells in a ring around
-/// the mask count, too.
+/// First pass: returns for each cell its distance, along its column, to the nearest cell on the
+/// other side of the boundary, strip by strip; [`NONE`] if there is no such cell. The border of
+/// outside cells around the mask counts, too.
 fn columns(mask: &Mask) -> Vec<i16> {
     let (width, height) = (mask.width() as usize, mask.height() as usize);
     let strip_len = STRIP * height;
@@ -76,9 +76,9 @@ fn columns(mask: &Mask) -> Vec<i16> {
     strips
 }
 
-/// Visits `rows` in the given order and counts, in each column of a strip, the cells since the last
-/// change of side. Each column starts outside, in the ring around the mask. `merge` combines the
-/// stored distance with the new count.
+/// Visits `rows` in the given order and counts, in each column of a strip, the cells since the
+/// column last changed between inside and outside. Each column starts outside, in the border around
+/// the mask. `merge` combines the stored distance with the new count.
 fn sweep<'a>(
     strip: &mut [i16],
     rows: impl Iterator<Item = (usize, &'a [bool])>,
@@ -103,8 +103,8 @@ fn sweep<'a>(
     }
 }
 
-/// Piece of a lower envelope: the parabola (x − `vertex`)² + `height`, which is the lowest one from
-/// cell `start` to the start of the next piece.
+/// Section of a lower envelope: the parabola (x − `vertex`)² + `height`, which is the lowest one
+/// from cell `start` to the start of the next section.
 #[derive(Clone, Copy, Debug)]
 struct ParabolaPiece {
     vertex: i32,
@@ -148,9 +148,8 @@ impl RowPass {
         let mut from = 0;
         for run in row.chunk_by(|a, b| a == b) {
             let to = from + run.len();
-            // The ring around the mask is outside. At the border of the mask, it is therefore on
-            // the other side of a run of inside cells, but on the same side as a run of outside
-            // cells.
+            // The border of cells around the mask is outside. It therefore ends a run of inside
+            // cells, but not a run of outside cells.
             let ends_left = from > 0 || run[0];
             let ends_right = to < row.len() || run[0];
             self.run(from, to, ends_left, ends_right);
@@ -164,8 +163,8 @@ impl RowPass {
     }
 
     /// Replaces the squared column distances of the run `from..to` by squared Euclidean distances.
-    /// `ends_left` and `ends_right` say whether a cell of the other side adjoins the run at that
-    /// end.
+    /// `ends_left` and `ends_right` say whether a cell on the other side of the boundary adjoins
+    /// the run at that end.
     fn run(&mut self, from: usize, to: usize, ends_left: bool, ends_right: bool) {
         let (first, end) = (from as i32, to as i32);
         self.envelope.clear();

@@ -201,12 +201,13 @@ impl SampleBlock {
     }
 }
 
-/// Recursive search with a stack of candidate edges, given as indices into `segments`. On the
-/// stack, the candidates of a block lie above those of its parent block.
+/// Recursive search for the nearest edges. Candidates are the edges that may be nearest to a sample
+/// of a block, as indices into `segments`. On the stack, the candidates of a block lie above those
+/// of its parent block.
 struct SegmentSearch<'a> {
     segments: &'a [PolygonSegment],
     stack: Vec<u32>,
-    /// Buffer for the vectors from each candidate to the centre of the block.
+    /// Buffer for the vectors from each candidate edge to the centre of the block.
     away: Vec<DVec2>,
 }
 
@@ -219,15 +220,15 @@ impl<'a> SegmentSearch<'a> {
         }
     }
 
-    /// Computes the distances of a block of `band`. The candidates of the block lie on the stack
-    /// from `bottom` up.
+    /// Computes the distances of a block of `band`. The candidate edges of the block lie on the
+    /// stack from `bottom` up.
     fn fill(&mut self, block: SampleBlock, bottom: usize, band: &mut RowBand<'_>) {
         let (columns, rows) = block.size();
         if columns * rows <= LEAF_SAMPLES {
             return self.measure(block, bottom, band);
         }
-        // For each half, the candidates of the whole block are pruned again. Afterwards the stack
-        // is restored for the other half.
+        // Prune the edges of the whole block again for each half. Afterwards restore the stack for
+        // the other half.
         for half in block.halves() {
             let top = self.stack.len();
             let (centre, radius) = half.disc(band.first_row);
@@ -237,7 +238,7 @@ impl<'a> SegmentSearch<'a> {
         }
     }
 
-    /// Prunes the candidates on the stack from `bottom` up: pushes a copy of each candidate that
+    /// Prunes the candidate edges on the stack from `bottom` up: pushes a copy of each edge that
     /// can be nearest to a point within `radius` of `centre`.
     fn push_near(&mut self, bottom: usize, centre: DVec2, radius: f64) {
         let segments = self.segments;
@@ -261,7 +262,8 @@ impl<'a> SegmentSearch<'a> {
         }
     }
 
-    /// Computes the distances of a block by brute force over its candidates.
+    /// Computes the distances of a block by brute force over its candidate edges, which lie on the
+    /// stack from `bottom` up.
     fn measure(&self, block: SampleBlock, bottom: usize, band: &mut RowBand<'_>) {
         for y in block.y.0..block.y.1 {
             for x in block.x.0..block.x.1 {

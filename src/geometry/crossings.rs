@@ -1,6 +1,6 @@
 //! Finds the proper crossings of closed polygons with themselves and with each other.
 //!
-//! The method is a sweep over the edges along x or y, whichever axis has fewer overlapping edges
+//! The algorithm is a sweep over the edges along x or y, whichever axis has fewer overlapping edges
 //! (Shamos, Hoey 1976, without their status structure). It takes O(n log n + k) time for n edges of
 //! which k pairs overlap along that axis. Guaranteed: every proper crossing is found, by exact
 //! predicates. Not counted: touching edges, coincident edges, and edges that run exactly through a
@@ -88,7 +88,8 @@ fn sweep(rings: &[Vec<DVec2>], mut report: impl FnMut(RingEdge, RingEdge)) {
     }
 }
 
-/// Returns the edges of all rings. Their `along` is the axis on which fewer edges overlap.
+/// Returns the edges of all rings. The range `along` of each edge is on the axis, x or y, on which
+/// fewer edges overlap.
 fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
     let sorted = |a: f64, b: f64| [a.min(b), a.max(b)];
     let mut spans: Vec<SweepEdge> = ring_edges(rings)

@@ -123,7 +123,7 @@ impl EdgeBvh {
     }
 }
 
-/// Ray in the form used by the box test.
+/// Ray with the reciprocals that the box test needs.
 struct Ray {
     from: DVec2,
     direction: DVec2,

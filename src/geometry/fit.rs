@@ -6,16 +6,17 @@ use super::{DAffine2, DMat2, DVec2};
 /// scale about the means.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SimilarityFit {
-    /// Rotation and scale as a complex number: Σ p̄ q / Σ |p|² over the points p and their places
-    /// q, both relative to their means.
+    /// Rotation and scale as a complex number: Σ p̄ q / Σ |p|² over the points p and their target
+    /// positions q, both relative to their means.
     pub factor: DVec2,
-    /// Mean of the points, and mean of the places.
+    /// Mean of the points, and mean of their target positions.
     pub means: [DVec2; 2],
 }
 
 impl SimilarityFit {
-    /// Fits the similarity to two lists of the same length. Returns `None` if all points or all
-    /// places coincide, or if no rotation fits better than another.
+    /// Fits the similarity to two lists of the same length, the points and their target positions.
+    /// Returns `None` if all points or all target positions coincide, or if no rotation fits better
+    /// than another.
     pub fn of(points: &[DVec2], places: &[DVec2]) -> Option<Self> {
         let count = points.len() as f64;
         let means = [points, places].map(|all| all.iter().sum::<DVec2>() / count);
@@ -40,7 +41,8 @@ impl SimilarityFit {
         self.factor.to_angle()
     }
 
-    /// Returns the root mean square of the distances between the mapped points and their places.
+    /// Returns the root mean square of the distances between the mapped points and their target
+    /// positions.
     pub fn residual(&self, points: &[DVec2], places: &[DVec2]) -> f64 {
         let off = |(p, q): (&DVec2, &DVec2)| self.apply(*p).distance_squared(*q);
         let sum: f64 = points.iter().zip(places).map(off).sum();
@@ -52,8 +54,9 @@ impl SimilarityFit {
 /// the matrix's squared trace (tolerance: above rounding).
 const COLLINEAR_RATIO: f64 = 1e-12;
 
-/// Returns the least-squares affine map from points to places, two lists of the same length.
-/// Collinear points give the least-squares similarity, and a single point gives a translation.
+/// Returns the least-squares affine map from points to their target positions, two lists of the
+/// same length. Collinear points give the least-squares similarity, and a single point gives a
+/// translation.
 pub(crate) fn fit_affine(points: &[DVec2], places: &[DVec2]) -> DAffine2 {
     let count = points.len().max(1) as f64;
     let [from, to] = [points, places].map(|all| all.iter().sum::<DVec2>() / count);

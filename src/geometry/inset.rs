@@ -12,7 +12,7 @@ const MIN_TIP_ANGLE: f64 = 0.2;
 /// search to 2⁻¹⁰ of its length, about a thousandth).
 const BISECTIONS: u32 = 10;
 
-/// Returns the rings around the part of a region that is farther than `depth` from its boundary;
+/// Returns the rings that bound all points of a region farther than `depth` from its boundary;
 /// holes run in the opposite direction to outer rings. Corners stay sharp, except those with an
 /// angle below [`MIN_TIP_ANGLE`].
 pub(crate) fn inset(rings: &[Vec<DVec2>], depth: f64) -> Vec<Vec<DVec2>> {
@@ -29,8 +29,8 @@ pub(crate) fn inset(rings: &[Vec<DVec2>], depth: f64) -> Vec<Vec<DVec2>> {
 }
 
 /// Returns the smallest depth at which [`inset`] leaves nothing: the radius of the largest disc in
-/// the region. The result is too large by at most a thousandth of the radius of a disc with the
-/// region's area.
+/// the region. The result may be too large by up to a thousandth of r, the radius of a disc with
+/// the same area as the region.
 pub(crate) fn inradius(rings: &[Vec<DVec2>]) -> f64 {
     let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
     // No disc in the region has more area than the region.

@@ -20,8 +20,8 @@ pub(crate) fn max_overshoot(measured: &[[f64; 2]]) -> f64 {
     measured.iter().map(relative_excess).fold(0.0, f64::max)
 }
 
-/// Returns how much a sequence rises and falls beyond the difference of its ends, relative to the
-/// larger end: (Σ |Δ| − |last − first|) / max(|first|, |last|).
+/// Returns the rise and fall of a sequence in excess of the difference between its first and last
+/// values, relative to the larger of these two: (Σ |Δ| − |last − first|) / max(|first|, |last|).
 pub(crate) fn excess_variation(values: impl Iterator<Item = f64>) -> f64 {
     let values: Vec<f64> = values.collect();
     let (Some(first), Some(last)) = (values.first(), values.last()) else {
@@ -29,7 +29,7 @@ pub(crate) fn excess_variation(values: impl Iterator<Item = f64>) -> f64 {
     };
     let variation: f64 = values.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
     let scale = first.abs().max(last.abs());
-    // A quantity that is 0 at both ends has no scale to compare with.
+    // A quantity whose first and last values are 0 has no scale to compare with.
     if scale > 0.0 {
         ((variation - (last - first).abs()) / scale).max(0.0)
     } else {

@@ -1,9 +1,9 @@
 //! Separates outlines that touch in single points.
 //!
 //! A region may touch itself in a point, and so may two of its holes. Such a region looks right,
-//! but a triangulation fails: the region is not clearly one connected piece, because rounding
-//! decides on which side of the contact a point lies. Where two corners meet in a point, the
-//! sharper one is therefore moved back, between its own edges, by an invisible distance.
+//! but a triangulation fails: rounding decides on which side of the contact a point lies, so the
+//! region may seem disconnected. Where two corners meet in a point, the sharper one is therefore
+//! moved back, between its own edges, by an invisible distance.
 
 use super::{Bounds, DVec2, Region, Regions, Ring, distance_squared_to_segment};
 
@@ -89,7 +89,7 @@ impl RegionCorners {
                 min: a.min(b) - near,
                 max: a.max(b) + near,
             };
-            // In the order of x, the candidates near an edge are a single range.
+            // In the order of x, the corners in the x range of an edge are consecutive.
             let from = by_x.partition_point(|&k| self.points[k].x < bounds.min.x);
             let within = by_x[from..]
                 .iter()

@@ -27,7 +27,7 @@ pub(crate) const RANGE_MESSAGE: &str =
 /// match puts points on an outline).
 const MAX_DISTANCE: f64 = 1e12;
 
-/// Reason why a design's size or place is out of range.
+/// Reason why the size or the position of a design is out of range.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DesignSizeError {

@@ -44,7 +44,7 @@ pub struct Repairs {
 const TESTS_PER_EDGE: usize = 500;
 
 impl Repairs {
-    /// Returns the sums of the numbers of defects of two sets of outlines.
+    /// Returns the sums of these counts and those of another set of outlines.
     #[must_use]
     pub fn merged_with(self, other: Self) -> Self {
         Self {
@@ -58,16 +58,16 @@ impl Repairs {
         }
     }
 
-    /// Returns the rings to be cleaned, without flat and duplicate ones and without idle points,
-    /// and the defects found. The points must be in range.
+    /// Returns the rings to be cleaned, and the defects found. Leaves out rings that enclose
+    /// nothing, duplicate rings and points that change nothing. All coordinates must be in range.
     pub(super) fn find(rings: &[Vec<DVec2>]) -> (Vec<Vec<DVec2>>, Self) {
         let mut repairs = Self::default();
         let mut seen = HashSet::new();
         let mut used_rings = Vec::new();
         for ring in rings {
             let (corners, idle) = corners(ring);
-            // Leave flat rings out before the search for duplicates: without corners, all of them
-            // look alike.
+            // Leave out rings that enclose nothing before the search for duplicates: without
+            // corners, all of them look alike.
             if corners.len() < 3 {
                 repairs.flat += 1;
                 continue;
@@ -83,7 +83,8 @@ impl Repairs {
         (used_rings, repairs)
     }
 
-    /// Counts only crossings and touches. Flat and duplicate rings take part in the count.
+    /// Counts only crossings and touches, also those of duplicate rings and of rings that enclose
+    /// nothing.
     #[must_use]
     pub fn count_contacts(rings: &[Vec<DVec2>]) -> Self {
         let mut repairs = Self::default();
@@ -139,7 +140,6 @@ fn have_opposite_signs(a: f64, b: f64) -> bool {
     (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)
 }
 
-/// Edge with its bounding box.
 #[derive(Clone, Copy)]
 struct BoxedEdge {
     a: DVec2,
@@ -160,15 +160,16 @@ impl BoxedEdge {
     }
 }
 
-/// Returns the points at which a ring turns, and the number of idle points; no points if the ring
-/// encloses nothing. A repetition of the first point at the end is not counted as idle, because
-/// some formats close rings that way.
+/// Returns the points at which a ring turns, and the number of idle points, which change nothing;
+/// no points if the ring encloses nothing. A repetition of the first point at the end is not
+/// counted as idle, because some formats close rings that way.
 fn corners(ring: &[DVec2]) -> (Vec<DVec2>, usize) {
     let mut points = ring.to_vec();
     if points.len() > 1 && points.first() == points.last() {
         points.pop();
     }
-    // Count the points after the closing point is gone; every point removed from here on is idle.
+    // Count the points after the closing point is gone; every point removed from here on counts as
+    // idle.
     let given_count = points.len();
     points.dedup();
     while points.len() > 1 && points.first() == points.last() {
@@ -258,7 +259,7 @@ mod tests {
         ] {
             assert_eq!(repairs(&rings), Repairs::default());
         }
-        // Two squares that touch in a corner.
+        // Two squares that touch in a corner need no repair.
         let other_square = ring(&[(4, 4), (8, 4), (8, 8), (4, 8)]);
         assert_eq!(repairs(&[ring(&SQUARE), other_square]), Repairs::default());
     }

@@ -48,7 +48,7 @@ pub fn distance_squared_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
 #[must_use]
 pub fn segments_touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     let boxes_apart = a.max(b).cmplt(c.min(d)).any() || c.max(d).cmplt(a.min(b)).any();
-    // For collinear segments the boxes decide: they touch if their boxes do.
+    // Collinear segments touch exactly if their bounding boxes do.
     !boxes_apart && !on_same_side([a, b], c, d) && !on_same_side([c, d], a, b)
 }
 
@@ -74,7 +74,8 @@ pub fn segments_cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
 pub(crate) fn ray_hit_parameter(from: DVec2, direction: DVec2, [a, b]: [DVec2; 2]) -> Option<f64> {
     let (edge, offset) = (b - a, a - from);
     let across = direction.perp_dot(edge);
-    // If ray and segment are parallel, this is infinite or NaN, and therefore outside 0 to 1.
+    // If ray and segment are parallel, this quotient is infinite or NaN, and therefore outside 0 to
+    // 1.
     let share = offset.perp_dot(direction) / across;
     let far = || offset.perp_dot(edge) / across;
     let meets = (0.0..=1.0).contains(&share);
@@ -104,15 +105,15 @@ mod tests {
         (0i8..4, 0i8..4).prop_map(|(x, y)| DVec2::new(x.into(), y.into()))
     }
 
-    /// Returns the intersection of the two lines as fractions of both segments; `None` if they are
-    /// parallel (oracle, exact for small integers).
+    /// Returns where the lines through two segments meet, as a fraction of each segment; `None` if
+    /// they are parallel (oracle, exact for small integers).
     fn meeting([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<[f64; 2]> {
         let across = (b - a).perp_dot(d - c);
         let shares = [(c - a).perp_dot(d - c), (c - a).perp_dot(b - a)];
         (across != 0.0).then(|| shares.map(|share| share / across))
     }
 
-    /// Returns whether `p` lies on a segment.
+    /// Returns whether `p` lies on a segment, including its ends.
     fn on([a, b]: [DVec2; 2], p: DVec2) -> bool {
         distance_squared_to_segment(p, a, b) == 0.0
     }

@@ -93,8 +93,8 @@ impl Similarity {
     }
 
     /// Returns −1 if the transform mirrors, and 1 otherwise. The mirror multiplies x by this
-    /// factor, and the angle of a rotation is multiplied by it when rotation and mirror swap their
-    /// order.
+    /// factor. When a rotation and the mirror swap their order, the rotation's angle is multiplied
+    /// by it.
     fn flip(&self) -> f64 {
         if self.mirror { -1.0 } else { 1.0 }
     }

@@ -9,11 +9,11 @@
 use super::{DVec2, perimeter};
 use std::f64::consts::TAU;
 
-/// Number of samples on a piece of outline that is as long as the drawing's diameter (heuristic).
+/// Number of samples on a stretch of outline that is as long as the drawing's diameter (heuristic).
 const SAMPLES_PER_DIAMETER: f64 = 200.0;
 
-/// Returns the turning of all rings together, in radians. `diameter` is the diameter of the whole
-/// drawing.
+/// Returns the turning of all rings together, in radians. `diameter`, the diagonal of the bounding
+/// box of the whole drawing, sets the distance between samples.
 pub(crate) fn total_turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
     let step = diameter / SAMPLES_PER_DIAMETER;
     let ring_turning = |ring: &Vec<DVec2>| {

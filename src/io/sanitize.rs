@@ -15,7 +15,8 @@ use std::fmt;
 /// program, which lists all keys of a project file).
 const MAX_CHARS: usize = 1_000;
 
-/// Number of characters at the end of a shortened message, enough for any remedy (heuristic).
+/// Number of characters that a shortened message keeps from its end, enough for any remedy
+/// (heuristic).
 const TAIL_CHARS: usize = 400;
 
 /// Wrapper whose `Display` writes the text of the value as one line: escaped, and shortened if it

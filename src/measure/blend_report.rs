@@ -53,8 +53,8 @@ impl BlendReport {
     }
 }
 
-/// Measures blends of a design space. The sampler owns a frame, so each thread needs its own
-/// sampler.
+/// Measures blends of a design space. A sampler holds one blend at a time, so each thread needs its
+/// own sampler.
 #[derive(Debug)]
 pub struct BlendSampler {
     frame: SpaceFrame,

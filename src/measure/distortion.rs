@@ -127,8 +127,8 @@ impl FaceStrain {
         }
     }
 
-    /// Returns `value`, or infinity if the face is folded or `value` is NaN. It is NaN (0/0) for a
-    /// face that has collapsed to a point.
+    /// Returns `value`, or infinity if the face is folded or `value` is NaN. `value` is NaN (0/0)
+    /// for a face that has collapsed to a point.
     fn or_infinite(&self, value: f64) -> f64 {
         if self.folded || value.is_nan() {
             f64::INFINITY

@@ -1,8 +1,8 @@
 //! Measures of a whole film (a transition from t = 0 to t = 1), sampled at evenly spaced t.
 //!
-//! Every sample is a frame exactly as it is drawn; nothing is known between samples. The cost is
-//! that of the frames: a few microseconds per face and sample for rigid parts, one contour per
-//! sample for fields.
+//! Every sample is measured on the shape exactly as it is drawn; nothing is known between samples.
+//! The cost is that of drawing the samples: a few microseconds per face and sample for rigid parts,
+//! one contour per sample for fields.
 
 use super::distortion::{Distortion, Distribution, distortion};
 use super::motion;
@@ -38,7 +38,8 @@ pub struct FilmSample {
     /// Total absolute turning of the boundaries of parts that exist in both designs, in radians.
     /// For the contour of a distance field, the same as `turning`.
     pub turning_of_both: f64,
-    /// Number of separate pieces; for a solid, the number of outer boundary loops. `None` for bars.
+    /// Number of separate pieces (connected regions); for a solid, the number of outer boundary
+    /// loops. `None` for bars.
     pub pieces: Option<usize>,
     /// Number of holes; for a solid, the number of inner boundary loops. `None` for bars.
     pub holes: Option<usize>,
@@ -78,7 +79,7 @@ pub struct FilmReport {
     /// First sampled t with a boundary crossing; `None` if there is none.
     pub first_crossing_t: Option<f64>,
     /// Largest conformal distortion of any face at any sample, divided by the largest at t = 0 or t
-    /// = 1; 1 if no sample exceeds the two ends.
+    /// = 1; 1 if no other sample has a larger value.
     pub conformal_by_end: Option<f64>,
     /// As `conformal_by_end`, for the 95th percentile by area instead of the worst face.
     pub conformal_p95_by_end: Option<f64>,
@@ -99,8 +100,8 @@ pub struct FilmReport {
     /// Total variation of the perimeter over t, minus the absolute difference between the
     /// perimeters at t = 0 and t = 1, as a fraction of the larger of these two perimeters.
     pub perimeter_variation_excess: f64,
-    /// Largest relative excess, over all samples, of `turning` over the straight line from its
-    /// value at t = 0 to its value at t = 1. It is large if the shape is jagged or wavy at some t,
+    /// Largest relative amount by which `turning` at a sample exceeds the linear interpolation
+    /// between its values at t = 0 and t = 1. It is large if the shape is jagged or wavy at some t,
     /// but neither at t = 0 nor at t = 1.
     pub turning_excess: f64,
     /// As `turning_excess`, for `turning_of_both`. It ignores parts that exist in one design only,
@@ -188,7 +189,7 @@ impl<'a> FilmSampler<'a> {
         }
     }
 
-    /// Measures one frame.
+    /// Measures the film at the t of `frame`.
     fn sample(&self, frame: &Frame) -> FilmSample {
         match self.content {
             Content::Solid(solid) => self.of_solid(frame.t(), solid, &frame.placement().in_frame),
@@ -219,8 +220,8 @@ impl<'a> FilmSampler<'a> {
 
 /// Returns the number of crossings of a solid's rings at `t`.
 ///
-/// Returns 0 at t = 0 and t = 1, where the film shows the designs themselves. Parts that were cut
-/// from one design share a seam there, and rounding may make the two sides of the seam cross.
+/// Returns 0 at t = 0 and t = 1, where the film shows the designs themselves. If a part was split,
+/// its pieces share the line of the cut there, and rounding may make their outlines cross.
 pub(super) fn crossings_at(t: f64, solid: &SolidContent, places: &[DVec2]) -> usize {
     if t == 0.0 || t == 1.0 {
         return 0;

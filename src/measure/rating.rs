@@ -20,8 +20,8 @@ const BUILT_FRACTION: f64 = 0.9;
 ///
 /// A film that disappears completely at some t is worse than one that does not. Otherwise, the film
 /// with fewer defects is better. With equal numbers of defects, the film with less overshoot is
-/// better. Overshoot is the turning of the outlines and the change of area beyond what the two ends
-/// require.
+/// better. Overshoot is the turning of the outlines and the change of area beyond what the shapes
+/// at t = 0 and t = 1 require.
 ///
 /// ```
 /// use morphospace::measure::FilmRating;
@@ -42,8 +42,8 @@ pub struct FilmRating {
     extra_holes: usize,
     /// Whether the shape disappears completely at some t.
     disappears: bool,
-    /// Turning of the outlines plus change of area, beyond what the two ends of the film require,
-    /// both as fractions.
+    /// Turning of the outlines plus change of area, beyond what the shapes at t = 0 and t = 1
+    /// require, both as fractions.
     overshoot: f64,
     is_solid: bool,
 }
@@ -98,8 +98,8 @@ impl FilmRating {
         (self.disappears, self.defects()) < (other.disappears, other.defects())
     }
 
-    /// Returns the turning of the outlines plus the change of area, beyond what the two ends of the
-    /// film (t = 0 and t = 1) require, both as fractions; 0 if there is no excess.
+    /// Returns the turning of the outlines plus the change of area, beyond what the shapes at t = 0
+    /// and t = 1 require, both as fractions; 0 if there is no excess.
     #[must_use]
     pub fn overshoot(&self) -> f64 {
         self.overshoot

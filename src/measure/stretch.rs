@@ -2,15 +2,16 @@
 //! boundary loop.
 //!
 //! Lengths are fractions of the length of their boundary loop, so uniform scaling counts as even. A
-//! single edge may have almost no length in one design, so the stretch is measured over windows of
-//! several edges. Each window reaches a minimum length, counted in source and target together.
+//! single edge may have almost no length in one design, so the stretch is measured over sections of
+//! several edges. Each section reaches a minimum length, counted in source and target together.
 
 use super::distortion::{self, Distribution};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
 
-/// Minimum length of a window: its fraction of the loop in the source plus its fraction in the
-/// target. This is about two edges of an outline with 120 points (heuristic).
+/// Minimum length of the section over which stretch is measured: its fraction of the loop in the
+/// source plus its fraction in the target. This is about two edges of an outline with 120 points
+/// (heuristic).
 const MIN_WINDOW_LENGTH: f64 = 0.03;
 
 /// Stretch of the boundary around one vertex.
@@ -18,8 +19,8 @@ const MIN_WINDOW_LENGTH: f64 = 0.03;
 pub(super) struct EdgeStretch {
     /// Index of the vertex.
     pub vertex: u32,
-    /// Fraction of the loop that the window around the vertex covers in the target, divided by the
-    /// fraction in the source; 1 is even.
+    /// Fraction of the loop that a section around the vertex covers in the target, divided by the
+    /// fraction that it covers in the source; 1 is even.
     pub ratio: f64,
     /// Length of the source boundary that the vertex represents, in design units: half of each of
     /// its two boundary edges.
@@ -63,13 +64,13 @@ fn loop_stretch(vertices: &[u32], source: &[f64], target: &[f64]) -> Vec<EdgeStr
     let n = vertices.len();
     let (source_length, target_length) = (source.iter().sum::<f64>(), target.iter().sum::<f64>());
     let stretch_at = |i: usize| {
-        // The window grows by one edge on either side until it is long enough.
+        // The section grows by one edge on either side until it is long enough.
         let (mut in_source, mut in_target) = (0.0, 0.0);
         for k in 0..n.div_ceil(2) {
             let (after, before) = ((i + k) % n, (i + 2 * n - 1 - k) % n);
             in_source += (source[after] + source[before]) / source_length;
             in_target += (target[after] + target[before]) / target_length;
-            // A window that is long in only one design is accepted. Otherwise, a squeezed section
+            // A section that is long in only one design is accepted. Otherwise, a squeezed section
             // would be averaged with its neighbours.
             if in_source + in_target >= MIN_WINDOW_LENGTH {
                 break;

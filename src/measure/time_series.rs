@@ -29,7 +29,7 @@ pub enum Quantity {
     Folds,
     /// Number of crossings of the boundary.
     Crossings,
-    /// Number of separate pieces.
+    /// Number of separate pieces (connected regions).
     Pieces,
     /// Number of holes.
     Holes,

@@ -54,7 +54,7 @@ pub struct Verdict {
     pub clear: &'static str,
     /// Defects, at most one of each kind, folds first.
     pub findings: Vec<Finding>,
-    /// Notes on what was done differently from what was requested.
+    /// Notes of the transition: deviations from the requested options, and suggestions.
     pub notes: Vec<TransitionNote>,
 }
 

@@ -1,8 +1,8 @@
 //! Connectivity of triangle meshes: half-edges and their opposites.
 //!
 //! Half-edge `3 f + k` runs from corner `k` of face `f` to the next corner. Guaranteed: every edge
-//! has one or two faces, and two faces of an edge run along it in opposite directions. Several fans
-//! of faces may touch at a vertex.
+//! has one or two faces, and two faces of an edge run along it in opposite directions. A vertex may
+//! have several separate fans of faces.
 
 use super::components::components;
 use super::edges::{sides, undirected};
@@ -96,7 +96,7 @@ impl Connectivity {
     }
 
     /// Returns the closed boundary loops as vertex indices, in the direction of the faces. A vertex
-    /// at which several fans touch occurs once for each fan.
+    /// with several separate fans of faces occurs once for each fan.
     ///
     /// # Panics
     /// If there are fewer faces than this connectivity was built from.

@@ -33,7 +33,7 @@ pub struct TooManyVertices {
 }
 
 impl Subdivision {
-    /// Splits every face `rounds` times; 0 rounds change nothing.
+    /// Splits every face into four, `rounds` times; 0 rounds change nothing.
     ///
     /// # Errors
     /// [`TooManyVertices`] if the result would have more than [`MAX_VERTICES`] vertices.
@@ -70,7 +70,7 @@ impl Subdivision {
         Ok(fine)
     }
 
-    /// Splits every face once. `first_new` is the index of the first new vertex.
+    /// Splits every face into four, once. `first_new` is the index of the first new vertex.
     fn split(&mut self, first_new: u32) {
         let mut midpoint_of_edge: HashMap<[u32; 2], u32> =
             HashMap::with_capacity(self.faces.len() * 2);

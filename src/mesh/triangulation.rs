@@ -7,8 +7,9 @@
 //!
 //! Guaranteed: the first vertices are the loops' corners, in order. Faces are counter-clockwise and
 //! fill the piece; the boundary loops of the mesh are the given loops. Invalid input is rejected.
-//! Not guaranteed: that refinement reaches its minimum angle. This is impossible next to sharp
-//! corners, and next to long edges of the loops, because refinement never splits these edges.
+//! Not guaranteed: that refinement reaches the minimum angle that it aims for. This is impossible
+//! next to sharp corners, and next to long edges of the loops, because refinement never splits an
+//! edge of a loop.
 
 mod domain;
 mod refine;

@@ -8,8 +8,8 @@ pub(crate) fn assign(
     columns: usize,
     cost: impl Fn(usize, usize) -> f64,
 ) -> Vec<usize> {
-    // Index 0 of each array is a dummy that stands for "unassigned"; real rows and columns start at
-    // 1.
+    // Index 0 of each array is a dummy row or column, which stands for "unassigned"; real rows and
+    // columns start at 1.
     let mut row_potential = vec![0.0; rows + 1];
     let mut column_potential = vec![0.0; columns + 1];
     let mut row_of = vec![0; columns + 1];
@@ -46,7 +46,7 @@ pub(crate) fn assign(
             }
             current_column = next;
         }
-        // Augment: each column along the path is reassigned to the row that reached it.
+        // Augment: each column along the shortest path is reassigned to the row that reached it.
         while current_column != 0 {
             row_of[current_column] = row_of[predecessor[current_column]];
             current_column = predecessor[current_column];

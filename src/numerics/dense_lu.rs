@@ -1,4 +1,4 @@
-//! LU factorisation of small dense systems that change in every frame.
+//! LU factorisation of small dense systems that change from one frame of an animation to the next.
 //!
 //! A [`DenseLu`] reuses its memory from one matrix to the next and never fails: a singular matrix
 //! gives a solution with infinities or NaN, or a meaningless one, so the caller must check the
@@ -27,7 +27,8 @@ pub struct DenseLu {
     /// Row permutation and its inverse.
     rows: [Vec<u32>; 2],
     memory: MemBuffer,
-    /// Largest number of unknowns, and of right-hand sides, for which `memory` suffices.
+    /// Largest number of unknowns and largest number of right-hand sides for which `memory`
+    /// suffices.
     room: [usize; 2],
 }
 

@@ -37,7 +37,7 @@ pub(crate) fn minimise(
     progress: &dyn Progress,
 ) -> f64 {
     // After a cancel every evaluation returns infinity, so the line search rejects all further
-    // steps and ends.
+    // trial points and ends.
     let mut function = |x: &[f64], gradient: &mut [f64]| {
         if progress.is_cancelled() {
             return f64::INFINITY;
@@ -71,8 +71,8 @@ struct CurvaturePair {
     change: Vec<f64>,
     /// Dot product of `step` and `change`.
     product: f64,
-    /// Factor by which the preconditioner is multiplied, so that it agrees with the change of the
-    /// gradient along this step.
+    /// Factor by which the preconditioner is multiplied. With it, the preconditioner applied to
+    /// `change` has the same dot product with `change` as `step`.
     scale: f64,
 }
 
@@ -119,8 +119,8 @@ fn direction(
 }
 
 /// Searches along a direction for a step that meets the weak Wolfe conditions. If none is found,
-/// returns the last step tried that descends far enough but ends on a steep slope; `None` if there
-/// is none either.
+/// returns the last trial point that is low enough but where the slope is still steep; `None` if
+/// there is no such point.
 fn search(
     x: &[f64],
     value: f64,
@@ -128,7 +128,8 @@ fn search(
     direction: &[f64],
     function: &mut impl FnMut(&[f64], &mut [f64]) -> f64,
 ) -> Option<LineSearchPoint> {
-    // Stop if the direction does not descend: this is a minimum, or rounding has spoilt the memory.
+    // Stop if the direction does not descend: this is a minimum, or the remembered steps are spoilt
+    // by rounding.
     let slope = dot(gradient, direction);
     if !value.is_finite() || slope.is_nan() || slope >= 0.0 {
         return None;
@@ -177,9 +178,9 @@ fn remember(
     let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
     let (step, change) = (minus(&accepted.x, x), minus(&accepted.gradient, gradient));
     let product = dot(&step, &change);
-    // The two-loop recursion divides by the product, and is sure to give a descent direction only
-    // if the product is positive. The threshold is above 0 to exclude products that are mere
-    // rounding.
+    // The two-loop recursion divides by the product of step and gradient change. It is sure to give
+    // a descent direction only if all products are positive. The threshold is above 0 to exclude
+    // products that are mere rounding.
     if product > 1e-14 * dot(&change, &change) {
         if memory.len() == MEMORY {
             memory.remove(0);

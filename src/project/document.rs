@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 pub const FORMAT_VERSION: u32 = 2;
 
 /// Format version that suffices for a film from one design to another, without a map and without
-/// times at its stops.
+/// pauses or durations at its stops.
 const PAIR_VERSION: u32 = 1;
 
 /// Contents of a `.morph` project file.
@@ -103,7 +103,7 @@ pub struct DesignEntry {
     /// Options for reading the file.
     #[serde(default, skip_serializing_if = "is_default")]
     pub import: ImportOptions,
-    /// Similarity that is applied to the design about its own centre, after `fit`.
+    /// Similarity transform that is applied to the design about its own centre, after `fit`.
     #[serde(default, skip_serializing_if = "is_default")]
     pub placement: Similarity,
 }

@@ -78,7 +78,7 @@ pub enum ProjectError {
         "match and parts are at the top level although there are [[legs]]; move them into the first of these"
     )]
     AmbiguousMatch,
-    /// The placement of a design is not a valid similarity.
+    /// The similarity transform that places a design is invalid.
     #[error(transparent)]
     Placement(#[from] SimilarityError),
     /// A parameter of the blend of distance fields, ε or the threshold, is not a permitted number.

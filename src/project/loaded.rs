@@ -74,7 +74,8 @@ fn supports_spaces(method: TransitionMethod) -> bool {
     }
 }
 
-/// Designs and placements of the whole sequence to which a segment belongs.
+/// Designs of the whole sequence to which a segment belongs, and the similarity transforms that the
+/// project applies to them.
 #[derive(Debug)]
 struct SequenceSource {
     designs: Vec<Arc<Design>>,
@@ -303,10 +304,11 @@ impl LoadedProject {
         TransitionSpec::available(method, &self.designs[0], &self.designs[1])
     }
 
-    /// Returns the two similarities that place the first two designs in the common frame.
+    /// Returns the similarity transforms of the first two designs, from the coordinates of each
+    /// design to the common coordinates of all designs.
     ///
     /// # Errors
-    /// [`ProjectError`] if a placement is not a valid similarity.
+    /// [`ProjectError`] if the placement of a design is not a valid similarity transform.
     ///
     /// # Panics
     /// If there are fewer than two designs.
@@ -347,11 +349,11 @@ impl LoadedProject {
     }
 
     /// Returns the specification from which [`Self::build_space`] builds the design space: all
-    /// designs of the project, placed in the common frame, with the content, warp and options.
+    /// designs of the project, in common coordinates, with the content, warp and options.
     ///
     /// # Errors
-    /// [`ProjectError`] if the method does not exist or cannot blend several designs, or if a
-    /// placement is not a valid similarity.
+    /// [`ProjectError`] if the method does not exist or cannot blend several designs, or if the
+    /// placement of a design is not a valid similarity transform.
     pub fn space_spec(&self) -> Result<SpaceSpec, ProjectError> {
         let project = &self.project;
         let mut method = self.method().map_err(BuildError::from)?;
@@ -383,7 +385,8 @@ impl LoadedProject {
     }
 
     /// Returns the features (pins and lines) that exist in all designs, at their positions in the
-    /// common frame, and the number of features that exist in only some designs.
+    /// common coordinates of all designs, and the number of features that exist in only some
+    /// designs.
     fn features(&self) -> Result<(ManyFeatures, usize), ProjectError> {
         let count = self.designs.len();
         let segments = (0..count.saturating_sub(1)).map(|pair| {
@@ -484,8 +487,8 @@ impl LoadedProject {
     /// Returns the specification of the transition; for a sequence, that of its first segment.
     ///
     /// # Errors
-    /// [`ProjectError`] if the method does not exist, a placement is not a valid similarity, or the
-    /// film follows a path.
+    /// [`ProjectError`] if the method does not exist, the placement of a design is not a valid
+    /// similarity transform, or the film follows a path.
     ///
     /// # Panics
     /// If there are fewer than two designs.
@@ -510,7 +513,8 @@ impl LoadedProject {
             method,
             others: self.sequence_designs(method)?,
             options: TransitionOptions {
-                // Pins are stored in the designs' own coordinates, but matched in the common frame.
+                // Pins are stored in the designs' own coordinates, but matched in the common
+                // coordinates.
                 matching: project.options.matching.placed(&similarities),
                 parts: placed_part_times(&project.options.parts, &similarities),
                 ..project.options.clone()

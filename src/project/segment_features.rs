@@ -4,9 +4,9 @@ use crate::correspondence::MatchSettings;
 use crate::geometry::DVec2;
 use crate::warp::ManyFeatures;
 
-/// Maximum distance between the end of a feature in one segment and its start in the next, as a
-/// fraction of the design's diameter (tolerance: positions set twice by hand differ by a few
-/// pixels).
+/// Maximum distance between the target position of a feature in one segment and the source position
+/// of the feature that continues it in the next, as a fraction of the design's diameter (tolerance:
+/// positions set twice by hand differ by a few pixels).
 const MAX_GAP: f64 = 0.01;
 
 /// Returns the features (pins and lines) that exist in all designs, with their positions in each
@@ -100,8 +100,8 @@ mod tests {
         };
         let segments = [
             segment(vec![pin(1.0, 2.0), pin(50.0, 60.0)], vec![line(5.0, 6.0)]),
-            // The first pin continues the second pin of the previous segment: it starts 0.4 away
-            // from the end of that pin.
+            // The first pin continues the second pin of the previous segment: its source is 0.4
+            // away from the target of that pin.
             segment(vec![pin(60.4, 70.0), pin(90.0, 91.0)], vec![line(6.0, 7.0)]),
         ];
         let (features, unmatched) = features_in_all_designs(&segments, &[100.0; 3]);

@@ -324,9 +324,9 @@ impl Project {
         *self = self.clone().with_pauses_at_designs();
     }
 
-    /// Adds a [`TransitionStop`] with a pause at each whole t between both ends of the film that
-    /// has no such stop yet. At a whole t, the film shows a design or the blend at a stop of its
-    /// path.
+    /// Adds a [`TransitionStop`] with a pause at each whole t between the start and the end of the
+    /// film, unless there is a stop already. At a whole t, the film shows a design or the blend at
+    /// a stop of its path.
     pub(super) fn with_pauses_at_designs(mut self) -> Self {
         for k in 1..self.segment_count() {
             let t = k as f64;

@@ -43,7 +43,7 @@ impl PlacementChannel {
 }
 
 impl MovingChannels {
-    /// Adds the channels in which two placements differ.
+    /// Adds the channels (position lists) in which two placements differ.
     pub(super) fn with_changes(self, first: &Placement, other: &Placement) -> Self {
         let differs = |channel: PlacementChannel| channel.of(other) != channel.of(first);
         Self {
@@ -53,7 +53,7 @@ impl MovingChannels {
         }
     }
 
-    /// Returns the moving channels in a fixed order.
+    /// Returns the channels (position lists) that move, in a fixed order.
     pub(super) fn channels(self) -> impl Iterator<Item = PlacementChannel> {
         let all = [
             (self.in_frame, PlacementChannel::Frame),

@@ -1,10 +1,10 @@
 //! Polynomials of all vertices in one time interval of a recording, and their evaluation.
 //!
-//! Vertices are stored in blocks, in the order in which they are read when a frame is evaluated:
-//! first the positions at both ends of the interval, then one coefficient after another. Small
-//! coefficients are stored in single precision, because their rounding error is small compared with
-//! the tolerance and frames of large meshes are limited by memory bandwidth. The sum is compiled
-//! for several SIMD widths; one of them is chosen at run time.
+//! Vertices are stored in blocks. The numbers of a block are stored in the order in which an
+//! evaluation reads them: first the positions at both ends of the interval, then one coefficient
+//! after another. Small coefficients are stored in single precision, because their rounding error
+//! is small compared with the tolerance and the evaluation of large meshes is limited by memory
+//! bandwidth. The sum is compiled for several SIMD widths; one of them is chosen at run time.
 
 use super::nodes::{MAX_NODES, basis};
 use crate::geometry::DVec2;
@@ -83,15 +83,15 @@ impl RecordingInterval {
         self.counts[0] + self.counts[1]
     }
 
-    /// Returns the positions of one vertex at both ends of the interval. `vertex` counts the
-    /// vertices of all blocks, starting with the first block.
+    /// Returns the positions of one vertex at both ends of the interval. `vertex` is its index
+    /// among the vertices of all blocks.
     pub(super) fn ends(&self, vertex: usize) -> [DVec2; 2] {
         let first = vertex / BLOCK * (2 + self.counts[0]);
         [0, 1].map(|end| point(&self.full[first + end], vertex))
     }
 
-    /// Returns coefficient `k` of one vertex. `vertex` counts the vertices of all blocks, starting
-    /// with the first block.
+    /// Returns coefficient `k` of one vertex. `vertex` is its index among the vertices of all
+    /// blocks.
     pub(super) fn coefficient(&self, vertex: usize, k: usize) -> DVec2 {
         let ([full, narrow], block) = (self.counts, vertex / BLOCK);
         if k < full {
@@ -102,8 +102,8 @@ impl RecordingInterval {
         point(&row.map(f64::from), vertex)
     }
 
-    /// Returns row `k` of a block. Rows 0 and 1 are the positions at both ends of the interval, the
-    /// other rows the coefficients.
+    /// Returns row `k` of a block in double precision. Rows 0 and 1 are the positions at both ends
+    /// of the interval, the other rows the coefficients.
     #[cfg(feature = "bevy")]
     pub(super) fn row(&self, block: usize, k: usize) -> BlockRow {
         let [full, narrow] = self.counts;
@@ -123,8 +123,8 @@ impl RecordingInterval {
         size_of_val(&self.full[..]) + size_of_val(&self.narrow[..])
     }
 
-    /// Fills `places` with the positions at `t` of as many vertices, beginning with the first
-    /// vertex of the block with the index `first`.
+    /// Fills `places` with positions at `t`: those of the first vertex of the block with the index
+    /// `first` and of the vertices after it.
     pub(super) fn place(&self, t: f64, first: usize, places: &mut [DVec2]) {
         let s = self.fraction(t);
         let evaluate_task = |k: usize, places: &mut [DVec2]| {
@@ -143,7 +143,7 @@ impl RecordingInterval {
     }
 }
 
-/// Evaluates the vertices of consecutive blocks at `s`, the fraction of the interval that has
+/// Evaluation of the positions in consecutive blocks at `s`, the fraction of the interval that has
 /// passed. The code is compiled for several SIMD widths.
 struct IntervalSum<'a> {
     interval: &'a RecordingInterval,
@@ -188,8 +188,8 @@ impl WithSimd for IntervalSum<'_> {
     }
 }
 
-/// Returns the point that the row of a block contains for one of its vertices. `vertex` counts the
-/// vertices of all blocks, so its remainder modulo [`BLOCK`] is the place in the row.
+/// Returns the point that the row of a block contains for one of its vertices. `vertex` is the
+/// vertex's index among all blocks, so the remainder modulo [`BLOCK`] is its place in the row.
 fn point(row: &BlockRow, vertex: usize) -> DVec2 {
     let first_number = 2 * (vertex % BLOCK);
     DVec2::new(row[first_number], row[first_number + 1])

@@ -4,8 +4,8 @@
 //! from 0 to 1. The following are therefore polynomials of s too: twice the signed area of a face,
 //! and a number whose sign shows on which side of an edge a vertex lies. A polynomial is positive
 //! throughout if all its Bernstein coefficients are positive. If they are not, both halves of the
-//! interval are examined, and so on, down to a thousand-millionth of the interval. If nothing folds
-//! or meets, every frame is drawn as it should be.
+//! interval are examined, and so on, down to a thousand-millionth of the interval. If no face folds
+//! and no outlines meet, the image is correct at every t.
 //!
 //! The certificate covers the recording as it is played: all error bounds include its rounding. How
 //! close the recording is to the warp is a separate number ([`Recording::error`]).

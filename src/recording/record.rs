@@ -14,8 +14,8 @@ use crate::warp::{Placer, Warp};
 use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 use rayon::prelude::*;
 
-/// Number of nodes from which on convergence is extrapolated, so that an interval that would need
-/// too many nodes is halved early (heuristic).
+/// Minimum number of nodes for a prediction of how many nodes an interval will need. An interval
+/// that would need too many is halved early (heuristic).
 const FORECAST_NODES: usize = 9;
 
 /// An interval of at most this length in t is not halved. If it needs too many nodes, the warp is
@@ -50,7 +50,7 @@ pub enum RecordingError {
         /// Limit in bytes, from the options.
         limit: usize,
     },
-    /// The warp jumps near a certain t, or its placements are too inexact there.
+    /// The warp jumps near `t`, or its placements are too inexact there.
     #[error("the motion is not smooth near t = {t:.3}; each frame is solved instead")]
     NotSmooth {
         /// The t near which the warp is not smooth.
@@ -72,7 +72,8 @@ pub(super) struct RecordedIntervals {
     pub evaluation_count: usize,
 }
 
-/// Positions of all moving channels at one t, in blocks of vertices, channel after channel.
+/// Positions at one t in all channels (position lists) that move, in blocks of vertices, channel
+/// after channel.
 type PositionBlocks = Vec<BlockRow>;
 
 /// Records a warp over [0, 1].
@@ -167,14 +168,15 @@ impl<'a> WarpRecorder<'a> {
         self.options.tolerance * self.diameter
     }
 
-    /// Returns the moving positions at `t`.
+    /// Returns the positions at `t` in all channels (position lists) that move.
     fn at(&mut self, t: f64) -> PositionBlocks {
         // At t = 0 and t = 1 the warp returns the designs themselves; nothing is computed there.
         self.evaluation_count += usize::from(t > 0.0 && t < 1.0);
         places(&mut self.placers[0], self.moving, t)
     }
 
-    /// Returns the moving positions at two times, computed in parallel.
+    /// Returns the positions at two times in all channels (position lists) that move. The two times
+    /// are evaluated in parallel.
     fn at_pair(&mut self, t: [f64; 2]) -> [PositionBlocks; 2] {
         self.evaluation_count += 2;
         let moving = self.moving;
@@ -301,8 +303,9 @@ impl<'a> WarpRecorder<'a> {
 }
 
 /// Returns whether an interval with `node_count` nodes is expected to converge within the maximum
-/// number of nodes. `off` and `previous_off` are the residuals at the last two pairs of nodes; the
-/// estimate assumes that the residual keeps shrinking by the same factor.
+/// number of nodes. `off` and `previous_off` are the distances between warp and polynomial at the
+/// last two pairs of nodes. The estimate assumes that the distance keeps shrinking by the same
+/// factor.
 fn will_converge(node_count: usize, off: f64, previous_off: f64, tolerance: f64) -> bool {
     let shrink_factor = off / previous_off;
     if shrink_factor >= 1.0 {
@@ -314,7 +317,7 @@ fn will_converge(node_count: usize, off: f64, previous_off: f64, tolerance: f64)
     node_count as f64 + pairs_needed <= MAX_NODES as f64
 }
 
-/// Evaluates a warp at `t` and packs its moving positions into blocks.
+/// Evaluates a warp at `t` and packs the positions that move into blocks.
 fn places(placer: &mut Placer, moving: MovingChannels, t: f64) -> PositionBlocks {
     placer.place(t);
     let placement = placer.placement();

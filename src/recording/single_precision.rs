@@ -144,7 +144,7 @@ mod tests {
     use crate::work::progress::Silent;
     use std::sync::Arc;
 
-    /// Two strips of points. The first one turns, much faster from the break on; the second does
+    /// Two strips of points. The first one turns, much faster after t = [`BREAK`]; the second does
     /// not move.
     #[derive(Debug)]
     struct TurningStrips(DVec2);

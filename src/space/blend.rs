@@ -177,8 +177,8 @@ impl SpaceFrame {
         let sum: f64 = weights.iter().map(finite).sum();
         let correction = (1.0 - sum) / weights.len() as f64;
         for (corrected, weight) in self.weights.iter_mut().zip(weights) {
-            // A rounding error of the sum is left alone, so that weight 1 on a design shows exactly
-            // that design.
+            // A rounding error of the sum is not corrected, so that weight 1 on a design shows
+            // exactly that design.
             *corrected = finite(weight)
                 + if correction.abs() < 1e-12 {
                     0.0
@@ -224,7 +224,8 @@ impl SpaceFrame {
         }
     }
 
-    /// Returns the bounding box of the blended pictures; `None` for other content.
+    /// Returns the rectangle to which the blended pictures are cropped: the mean of their bounding
+    /// boxes, weighted as the pictures; `None` for other content.
     #[must_use]
     pub fn window(&self) -> Option<Bounds> {
         match &self.space.0.content {

@@ -87,7 +87,7 @@ impl SpaceSpec {
             },
             parts: Vec::new(),
             paint: PaintRule::One,
-            // Only the match is used, so collisions need not be avoided.
+            // Only the match of the transition is used, so collisions need not be avoided.
             guard: CollisionAvoidance::Off,
             ..self.options.clone()
         };
@@ -177,13 +177,13 @@ impl DesignSpace {
     }
 }
 
-/// Source of the common mesh of the designs, and their dissimilarities.
+/// Basis of the common mesh of the designs, and the dissimilarities of the designs.
 struct BuiltContent {
     form: CommonForms,
     distances: DesignDistances,
 }
 
-/// Source of the common mesh of the designs.
+/// Basis of the common mesh of the designs.
 enum CommonForms {
     /// The common mesh, or why there is none, and the bars of trusses. This variant is used for
     /// trusses, for meshes with common connectivity, and for outlines with too many points to be
@@ -205,7 +205,8 @@ impl BuiltContent {
             .iter()
             .map(|design| outline(design, bar_width, progress));
         let outlines: Vec<Regions> = outlines.collect::<Result<_, _>>()?;
-        // Designs are matched in pairs, so the limit applies to two designs at a time.
+        // Only two designs at a time are matched, so the limit applies to the points of two
+        // designs.
         for pair in outlines.windows(2) {
             let rings = pair.iter().flat_map(Regions::rings);
             let points = rings.map(|ring| ring.points().len()).sum();
@@ -374,8 +375,8 @@ fn mesh(design: &Arc<Design>) -> Option<&TriangleMesh> {
     }
 }
 
-/// Computes the distance fields of all designs on one grid. The grid covers the same part of the
-/// plane as the grid of the transition that `frame` specifies.
+/// Computes the distance fields of all designs on one grid. The grid covers the same rectangle as
+/// the grid of the transition that `frame` specifies.
 fn fields(
     spec: &SpaceSpec,
     frame: &TransitionSpec,

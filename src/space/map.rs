@@ -63,8 +63,8 @@ impl WeightMap {
 
     /// Returns a grid of places over the map, in rows from the top.
     ///
-    /// The grid place nearest to each site is moved onto the site. Places farther than a third of a
-    /// grid step from the convex hull of the sites are `None`.
+    /// The grid place nearest to each site is moved onto the site. Places that lie outside the
+    /// convex hull of the sites by more than a third of the larger grid step are `None`.
     #[must_use]
     pub fn grid(&self, columns: usize, rows: usize) -> Vec<Option<DVec2>> {
         let size = self.bounds.size();
@@ -72,7 +72,7 @@ impl WeightMap {
         let step = size / steps;
         let place = |index: usize| {
             let (column, row) = (index % columns, index / columns);
-            // A single row or column lies in the middle.
+            // If there is only one row or column, it lies in the middle.
             let fraction = |k: usize, of: usize| match of {
                 1 => 0.5,
                 _ => k as f64 / (of as f64 - 1.0),
@@ -80,8 +80,8 @@ impl WeightMap {
             let fraction = DVec2::new(fraction(column, columns), 1.0 - fraction(row, rows));
             self.bounds.min + fraction * size
         };
-        // Places up to a third of a step outside the hull are included, so that cells at its
-        // boundary are not empty.
+        // Places slightly outside the hull are included, so that cells at its boundary are not
+        // empty.
         let reach = step.max_element() / 3.0;
         let mut places: Vec<Option<DVec2>> = (0..columns * rows)
             .map(place)

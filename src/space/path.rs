@@ -75,7 +75,8 @@ impl MapPath {
 #[derive(Clone, Debug)]
 pub struct MapCurve {
     spans: Vec<CurveSpan>,
-    /// For each segment, the index of its first span and the index after its last.
+    /// For each segment, the index of its first cubic curve in `spans` and the index after its last
+    /// one.
     segments: Vec<[usize; 2]>,
 }
 
@@ -91,8 +92,8 @@ struct CurveSpan {
     lengths: [f64; STEPS + 1],
 }
 
-/// Number of chords that approximate the length of a span (tolerance: with more chords, no position
-/// would change by a pixel).
+/// Number of chords that approximate the arc length of a cubic curve (tolerance: with more chords,
+/// no position would change by a pixel).
 const STEPS: usize = 32;
 
 impl CurveSpan {
@@ -122,7 +123,7 @@ impl CurveSpan {
         self.lengths[STEPS]
     }
 
-    /// Returns the position at the given arc length from the start of the span.
+    /// Returns the position at the given arc length from the start of this cubic curve.
     fn at(&self, length: f64) -> DVec2 {
         let k = self.lengths.partition_point(|&to| to < length);
         let k = k.clamp(1, STEPS);
@@ -230,7 +231,7 @@ pub fn simplify_polyline(line: &[DVec2], tolerance: f64) -> Vec<DVec2> {
     }
 }
 
-/// Returns the cubic curve from place k − 1 to place k, as coefficients of 1, u, u² and u³.
+/// Returns the cubic curve from waypoint k − 1 to waypoint k, as coefficients of 1, u, u² and u³.
 fn cubic(places: &[DVec2], k: usize) -> [DVec2; 4] {
     let last = places.len() - 1;
     let is_closed = last > 1 && places[0] == places[last];
@@ -251,8 +252,9 @@ fn cubic(places: &[DVec2], k: usize) -> [DVec2; 4] {
         (gap(before, from), gap(from, to), gap(to, after));
     let chord = to - from;
     let tangent = |other: DVec2, gap: f64| match interval > 0.0 && gap > 0.0 {
-        // Mean of the slopes of this span and the neighbouring one, weighted towards the shorter
-        // knot interval, and scaled to the parameter of this span, which runs from 0 to 1.
+        // Mean of the slopes of this curve and the neighbouring one, weighted towards the one with
+        // the shorter knot interval. The slope is scaled to the parameter of this curve, which runs
+        // from 0 to 1.
         true => (chord * gap / interval + other * interval / gap) * (interval / (interval + gap)),
         false => chord,
     };

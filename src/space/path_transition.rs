@@ -73,7 +73,8 @@ impl DesignSpace {
         let polynomials = WeightPolynomials::new(designs, &on_map);
         let weights = move |t: f64, weights: &mut [f64]| match (0.0..=1.0).contains(&t) {
             true => polynomials.at(t, weights),
-            // Outside [0, 1], the polynomials would diverge quickly.
+            // Outside [0, 1], the polynomials would diverge quickly, so the weights of the map are
+            // used.
             false => on_map(t, weights),
         };
         let weights_at = |t: f64| {

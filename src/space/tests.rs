@@ -320,7 +320,8 @@ fn a_path_through_fields_follows_the_map() {
             true => sites[1].lerp(sites[2], fraction),
             false => sites[2].lerp(DVec2::ZERO, fraction),
         };
-        // The curve bends near its stops, so areas are compared with a tolerance.
+        // The smooth curve leaves the straight line between the stops, so areas are compared with a
+        // tolerance.
         let mut weights = vec![0.0; 3];
         map.weights(place, &mut weights);
         blend.seek(&weights);

@@ -28,7 +28,8 @@ pub(super) fn apply_view(
         {
             view.viewport_px = viewport_px;
         }
-        // The view is near its anchor wherever the design lies, so single precision suffices.
+        // The centre of the view is near the point of the plane at Bevy's origin, wherever the
+        // design lies, so single precision suffices.
         let at = (view.centre - view.anchor()).as_vec2();
         let translation = at.extend(transform.translation.z);
         let mut place = transform.map_unchanged(|transform| &mut transform.translation);

@@ -14,11 +14,11 @@ use crate::transition::Frame;
 
 use super::vertices::{positions, write_points};
 
-/// Writes the frame into a mesh that has as many vertices as its placement.
+/// Writes the vertices of a frame into a mesh with the same number of vertices.
 ///
-/// Positions are relative to `origin`. Lookup positions are in grid samples for distance fields, in
-/// fractions of the sides for pictures, and relative to `origin` for the warp grid, whose `content`
-/// is `None`.
+/// Positions are relative to `origin`. Lookup positions, at which the shader reads source and
+/// target, are in grid samples for distance fields, in fractions of the sides for pictures, and
+/// relative to `origin` for the warp grid, whose `content` is `None`.
 pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mesh: &mut Mesh) {
     let places = &frame.placement().in_frame;
     write_points(places, origin, positions(mesh));
@@ -49,15 +49,15 @@ pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mes
     }
 }
 
-/// Returns the map from points of the plane to fractions of the picture's width and height.
+/// Returns the mapping from points of the plane to fractions of the picture's width and height.
 fn picture_fractions(layer: &PictureLayer) -> impl Fn(DVec2) -> DVec2 {
     let (width, height) = layer.picture().pixels().dimensions();
     let size = DVec2::new(f64::from(width), f64::from(height));
     move |p| layer.pixel_from_plane(p) / size
 }
 
-/// Writes the positions of all vertices in source and target to `out`, converted to lookup
-/// positions by the maps `source` and `target`.
+/// Writes the positions of all vertices in source and target to `out`. The functions `source` and
+/// `target` convert them to the positions at which the shader reads the designs.
 fn write_lookups(
     frame: &Frame,
     out: &mut [[f32; 4]],

@@ -60,8 +60,9 @@ pub struct MorphOptions(pub ArapOptions);
 pub struct Morph(#[reflect(ignore)] pub(super) Frame);
 
 impl Morph {
-    /// Returns the current frame. If the graphics card plays the morph, the first read of the
-    /// vertices at each t computes them on the CPU, so read them only where needed.
+    /// Returns the current frame. If the graphics card evaluates the morph from a recording, the
+    /// first read of the vertices at each t computes them on the CPU, so read them only where
+    /// needed.
     pub fn frame(&self) -> &Frame {
         &self.0
     }
@@ -81,7 +82,7 @@ pub struct StageTransition(pub Transition);
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(Component, Clone, Debug, Default)]
 pub struct StageStyle {
-    /// Colours, joints and background, as in exported files.
+    /// Colours and background, and whether joints are drawn, as in exported files.
     #[reflect(ignore, clone)]
     pub style: TransitionStyle,
     /// Elements that are visible.

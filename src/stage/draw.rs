@@ -1,8 +1,8 @@
 //! Draws morphs: updates the meshes and materials of all render parts of morphs whose frame or
 //! style changed.
 //!
-//! Guaranteed: only the meshes of visible parts are written, in place, and only written meshes are
-//! marked as changed. Hidden parts are written when they become visible.
+//! Guaranteed: only the meshes of visible render parts are written, in place, and only written
+//! meshes are marked as changed. Hidden render parts are written when they become visible.
 
 use bevy::platform::time::Instant;
 use bevy::prelude::*;
@@ -47,7 +47,7 @@ pub(super) fn draw_morphs(
         let mut parts = parts.iter_many_mut(children);
         while let Some((mut part, mut visibility, mesh)) = parts.fetch_next() {
             let (has_moved, is_restyled) = (morph.is_changed(), style.is_changed());
-            // A hidden part that is stale stays so until it is shown.
+            // A hidden render part stays stale (its vertices are outdated) until it is shown.
             part.is_stale |= part.kind.is_outdated(has_moved, is_restyled, frame);
             let is_shown = part.kind.is_shown(&style);
             visibility.set_if_neq(if is_shown {
@@ -59,11 +59,11 @@ pub(super) fn draw_morphs(
                 continue;
             }
             if let Some(DeferredMesh(make)) = part.deferred_mesh.take() {
-                // This cannot fail: the handle was reserved for this part and lives as long as the
-                // part.
+                // This cannot fail: the handle was reserved for this render part and lives as long.
                 paints.meshes.insert(mesh, make(frame)).ok();
             }
-            // The mesh of a part that the graphics card plays is not written and stays stale.
+            // If the graphics card evaluates a render part from a recording, the mesh of this
+            // render part is not written and stays stale (outdated).
             let is_played = part.is_gpu_played(upload, frame.t());
             any_played |= is_played;
             any_read |= part.needs_positions(frame, frame.t(), &style, upload);
@@ -82,7 +82,7 @@ pub(super) fn draw_morphs(
     }
 }
 
-/// Updates the material of a part to the current frame and style.
+/// Updates the material of a render part to the current frame and style.
 fn paint(
     part: &StagePart,
     frame: &Frame,

@@ -61,9 +61,10 @@ impl DurationHistory {
 #[derive(Resource, Clone, Debug, Default, Reflect)]
 #[reflect(Resource, Clone, Debug, Default)]
 pub struct FrameTimes {
-    /// Time to compute all vertices: right-hand sides, back substitution and placement.
+    /// CPU time per frame to compute all vertices: right-hand sides, back substitution and
+    /// placement.
     pub solve: DurationHistory,
-    /// Time to write render meshes and uniforms.
+    /// CPU time per frame to write render meshes and uniforms.
     pub draw: DurationHistory,
     /// Whether the graphics card evaluated the last drawn frame from a recording, so that the CPU
     /// neither solved it nor wrote vertices.

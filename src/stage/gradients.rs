@@ -36,18 +36,18 @@ pub(super) struct GradientTable {
     used: usize,
 }
 
-/// Place of a gradient in the table, with the map into the gradient's own space.
+/// Place of a gradient in the table, with the mapping into the gradient's own space.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GradientSlot {
     /// Index of the gradient's first vector in the table.
     first: usize,
-    /// Map from the plane to the gradient's own space.
+    /// Mapping from the plane to the gradient's own space.
     gradient_from_plane: DAffine2,
 }
 
 impl GradientTable {
     /// Adds a gradient to the table. Returns `None` if the table has no room for it, or if the
-    /// gradient has no stops or a degenerate frame.
+    /// gradient has no stops or a singular affine transform.
     pub(super) fn insert(&mut self, gradient: &Gradient) -> Option<GradientSlot> {
         let into = gradient.frame.inverse();
         if !into.is_finite() || gradient.stops.is_empty() {

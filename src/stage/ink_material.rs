@@ -31,7 +31,7 @@ pub(super) enum InkKind {
     Round,
     /// Edges of triangles; the triangles share no vertices.
     Wire,
-    /// Segments that the vertex shader widens to lines.
+    /// Line segments that the vertex shader widens.
     Line,
 }
 
@@ -89,7 +89,8 @@ impl Material2d for InkMaterial {
     }
 }
 
-/// Asset path of a shader file from the folder of this file, which is embedded in the program.
+/// Returns the asset path of a shader file that is embedded in the program. The file is in the
+/// folder of this source file.
 pub(super) fn embedded_shader_path(name: &'static str) -> bevy::asset::AssetPath<'static> {
     let path = embedded_path!("ink.wgsl").with_file_name(name);
     bevy::asset::AssetPath::from_path_buf(path).with_source("embedded")

@@ -11,7 +11,7 @@ use crate::colour::{StrokeJoin, StrokeStyle};
 /// circle (tolerance: the segments deviate from the circle by 0.2 % of the radius).
 const CIRCLE_SEGMENTS: f64 = 48.0;
 
-/// Appends the triangles of a stroke along closed rings to a mesh. Positions are relative to
+/// Appends the triangles of a stroke along boundary loops to a mesh. Positions are relative to
 /// `origin`; overlapping triangles are not merged.
 pub(super) fn push_stroke(
     rings: &[Vec<DVec2>],
@@ -36,8 +36,8 @@ pub(super) fn push_stroke(
     }
 }
 
-/// Covers the stroke along one ring by convex polygons and calls `fan` with each of them. Rings
-/// with points that are not finite are skipped.
+/// Covers the stroke along one boundary loop by convex polygons and calls `fan` with each of them.
+/// Loops with points that are not finite are skipped.
 fn push_ring(ring: &[DVec2], line: &StrokeStyle, fan: &mut impl FnMut(&[DVec2])) {
     let mut points = ring.to_vec();
     points.dedup();
@@ -62,8 +62,8 @@ fn push_ring(ring: &[DVec2], line: &StrokeStyle, fan: &mut impl FnMut(&[DVec2]))
     }
 }
 
-/// Covers the outer side of a corner by a polygon. `at` is the corner; `left` are the offsets from
-/// its two edges to the left borders of their quads.
+/// Covers the outer side of a corner by a polygon. `at` is the corner; `left` holds, for each of
+/// its two edges, the vector from the edge to the left border of the stroke.
 fn corner(
     at: DVec2,
     left: [DVec2; 2],
@@ -71,7 +71,7 @@ fn corner(
     half: f64,
     fan: &mut impl FnMut(&[DVec2]),
 ) {
-    // The outer side is on the right if the ring turns left at this corner.
+    // The outer side is on the right if the loop turns left at this corner.
     let turn = left[0].perp_dot(left[1]);
     let [a, b] = if turn > 0.0 { left.map(|p| -p) } else { left };
     let angle = a.angle_to(b).abs();

@@ -57,7 +57,7 @@ pub struct MeshFamily(pub Vec<TriangleMesh>);
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct BlendWeights(pub Vec<f64>);
 
-/// Finished blend of a mesh family or of several designs, which is moved by weights.
+/// Finished blend of a mesh family or of several designs, for any weights.
 #[derive(Component, Debug)]
 pub(super) struct FamilySteering(pub(super) SteeredTransition);
 

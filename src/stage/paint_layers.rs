@@ -19,7 +19,8 @@ use super::vertices::write_points;
 pub(super) struct LayerMesh {
     /// Faces of the placement, by layer; they do not change from frame to frame. `None` for
     /// distance fields, and for solids whose faces cannot represent the layers (for example with
-    /// transient parts or holes). The rings of the layers are then triangulated anew in each frame.
+    /// transient parts or holes). The boundary loops of the layers are then triangulated anew in
+    /// each frame.
     faces: Option<LayerFaces>,
     /// Gradients of the frame that was written last.
     gradients: Box<GradientUniform>,
@@ -56,8 +57,9 @@ impl LayerMesh {
 
     /// Returns the state for a solid with the paint layers in `stack`.
     pub(super) fn of_solid(frame: &Frame, solid: &SolidContent, stack: &PaintLayerStack) -> Self {
-        // Faces cannot represent transient parts and holes, nor layers in which the paint differs
-        // between rings, because parts have their own times or fade in or out.
+        // Faces cannot represent transient parts and holes. Nor can they represent layers in which
+        // the paint differs between boundary loops, which happens if parts have separate times or
+        // fade in or out.
         let has_transients = !solid.holes.is_empty()
             || !solid.swelling_shapes.is_empty()
             || solid.part_clocks.is_some()
@@ -114,7 +116,7 @@ impl LayerMesh {
             let places = &placement.in_frame;
             layers.positions.resize(places.len(), [0.0; 3]);
             write_points(places, origin, &mut layers.positions);
-            // If faces are drawn, each layer has exactly one group of rings.
+            // If faces are drawn, each layer has exactly one group of boundary loops.
             let mut ink_of_layer = vec![LayerInkSlot::Flat([0.0; 4]); groups.len()];
             for (inked, &ink) in groups.iter().zip(&inks) {
                 ink_of_layer[inked.layer] = ink;
@@ -204,7 +206,7 @@ impl LayerMeshBuilder {
         self.places.push(place);
     }
 
-    /// Adds the triangles of the area that rings enclose.
+    /// Adds the triangles of the area that boundary loops enclose.
     fn fill(&mut self, rings: &[Vec<DVec2>], ink: LayerInkSlot) {
         let first = self.positions.len() as u32;
         let (points, corners) = triangulate(rings, self.origin);
@@ -216,7 +218,7 @@ impl LayerMeshBuilder {
         self.indices.extend(corners);
     }
 
-    /// Adds the triangles of a stroke along rings.
+    /// Adds the triangles of a stroke along boundary loops.
     fn draw(&mut self, rings: &[Vec<DVec2>], line: &StrokeStyle) {
         line_mesh::push_stroke(
             rings,

@@ -1,7 +1,7 @@
 //! Spawns the render parts of new transitions, and despawns those of removed transitions.
 //!
 //! Guaranteed: an entity has render parts of one transition only, however quickly transitions are
-//! replaced; when its [`Morph`] is removed, its parts are despawned.
+//! replaced; when its [`Morph`] is removed, its render parts are despawned.
 
 use bevy::camera::visibility::NoFrustumCulling;
 use bevy::ecs::system::SystemParam;
@@ -52,8 +52,8 @@ fn quads(coordinates: Vec<[f32; 2]>) -> Mesh {
     unwritten_mesh(coordinates).with_inserted_indices(Indices::U32(indices))
 }
 
-/// Returns a mesh that shows nothing. It is a placeholder for rings, because their number of
-/// vertices is known only after they are triangulated.
+/// Returns a mesh that shows nothing. It is a placeholder for filled boundary loops, whose number
+/// of vertices is known only after they are triangulated.
 fn nothing() -> Mesh {
     let (positions, indices) = ring_fill::degenerate_triangle();
     mesh(positions).with_inserted_indices(Indices::U32(indices))
@@ -175,8 +175,8 @@ struct PartFactory<'a, 'w, 's> {
 }
 
 impl PartFactory<'_, '_, '_> {
-    /// Spawns a render part with a material. `mesh` creates its mesh when the part is shown for the
-    /// first time.
+    /// Spawns a render part with a material. `mesh` creates its mesh when the render part is shown
+    /// for the first time.
     fn add<M: Material2d>(
         &mut self,
         kind: PartKind,
@@ -184,7 +184,7 @@ impl PartFactory<'_, '_, '_> {
         material: Handle<M>,
         paint: fn(Handle<M>) -> StagePaint,
     ) {
-        // Only a handle is reserved, so that parts that are never shown take no memory.
+        // Only a handle is reserved, so that render parts that are never shown take no memory.
         let handle = self.assets.paints.meshes.reserve_handle();
         let part = StagePart {
             kind,
@@ -202,9 +202,9 @@ impl PartFactory<'_, '_, '_> {
         self.assets.commands.spawn((part, drawn, hidden, parent));
     }
 
-    /// Adds a part with faces or a wireframe. `mesh` holds two constructors of its mesh: one
-    /// without vertex indices, and one with the vertex indices with which the graphics card plays
-    /// recordings.
+    /// Adds a render part with faces or a wireframe. `mesh` holds two constructors: of a mesh
+    /// without vertex indices, and of a mesh with the vertex indices that the graphics card needs
+    /// to evaluate a recording.
     fn add_triangles(&mut self, kind: PartKind, mesh: [fn(&Frame) -> Mesh; 2]) {
         let [plain, numbered] = mesh;
         let Some(gpu) = &self.assets.gpu else {
@@ -219,7 +219,7 @@ impl PartFactory<'_, '_, '_> {
         self.add(kind, numbered, material, StagePaint::Recorded);
     }
 
-    /// Adds a part in one colour or with paint layers, whose vertices the CPU writes.
+    /// Adds a render part in one colour or with paint layers, whose vertices the CPU writes.
     fn add_inked(
         &mut self,
         kind: PartKind,
@@ -233,7 +233,7 @@ impl PartFactory<'_, '_, '_> {
         self.add(kind, mesh, material, StagePaint::Ink);
     }
 
-    /// Adds a part with paint layers.
+    /// Adds a render part with paint layers.
     fn add_paint_layers(&mut self, layers: LayerMesh) {
         let mesh = match layers.has_faces() {
             true => faces(self.frame),
@@ -246,11 +246,11 @@ impl PartFactory<'_, '_, '_> {
         self.add_inked(PartKind::PaintLayers(layers), |_| mesh);
     }
 
-    /// Adds the parts of a solid content: fill, bars, joints and wireframe.
+    /// Adds the render parts of a solid content: fill, bars, joints and wireframe.
     fn add_solid(&mut self, solid: &SolidContent) {
         let count = self.frame.placement().faces.len();
         let has_loops = !solid.loops.is_empty();
-        // Faces cannot represent transient parts and holes, so rings are drawn instead.
+        // Faces cannot represent transient parts and holes, so boundary loops are drawn instead.
         let has_transients = !solid.holes.is_empty() || !solid.swelling_shapes.is_empty();
         if let Some(stack) = &solid.paint_layers {
             self.add_paint_layers(LayerMesh::of_solid(self.frame, solid, stack));

@@ -24,20 +24,20 @@ use super::vertices::{BarShapes, positions, write_corners, write_points};
 /// A render part: a child entity that draws one element of a transition.
 #[derive(Component, Debug)]
 pub(super) struct StagePart {
-    /// Element of the transition that the part draws.
+    /// Element of the transition that the render part draws.
     pub(super) kind: PartKind,
-    /// Material of the part.
+    /// Material of the render part.
     pub(super) paint: StagePaint,
     /// Point of the plane to which the vertex positions are relative.
     pub(super) origin: DVec2,
-    /// Constructor of the part's mesh; `None` once the part has been shown.
+    /// Constructor of the mesh; `None` once the render part has been shown.
     pub(super) deferred_mesh: Option<DeferredMesh>,
     /// Whether the vertices must be rewritten, because the frame or the style changed after they
     /// were written.
     pub(super) is_stale: bool,
 }
 
-/// Constructor of a mesh that is called when a part is shown for the first time.
+/// Constructor of a mesh that is called when a render part is shown for the first time.
 pub(super) struct DeferredMesh(pub(super) Box<dyn FnOnce(&Frame) -> Mesh + Send + Sync>);
 
 impl fmt::Debug for DeferredMesh {
@@ -54,7 +54,7 @@ pub(super) enum PartKind {
     /// Filled boundaries in one colour, if the transition has no faces or has transient parts or
     /// holes that faces cannot represent.
     Rings,
-    /// Faces or rings in several paint layers.
+    /// Faces or boundary loops in several paint layers.
     PaintLayers(LayerMesh),
     /// Blend of distance fields.
     Field,
@@ -78,8 +78,8 @@ pub(super) enum PartKind {
 }
 
 impl PartKind {
-    /// Returns the height of the part in the drawing order. Parts with larger values cover those
-    /// with smaller values.
+    /// Returns the height of the render part in the drawing order. Render parts with larger values
+    /// cover those with smaller values.
     pub(super) fn z(&self) -> f32 {
         match self {
             Self::Faces | Self::Rings | Self::PaintLayers(_) | Self::Picture => 0.0,
@@ -94,7 +94,8 @@ impl PartKind {
         }
     }
 
-    /// Returns the kind of shape that the part's material draws. It selects the shader variant.
+    /// Returns the kind of shape that the material of the render part draws. This kind selects the
+    /// shader variant.
     pub(super) fn ink_kind(&self) -> InkKind {
         match self {
             Self::Bars(_) | Self::JointCores(_) => InkKind::Round,
@@ -105,7 +106,7 @@ impl PartKind {
         }
     }
 
-    /// Returns whether the part is visible in a style.
+    /// Returns whether the render part is visible in a style.
     pub(super) fn is_shown(
         &self,
         StageStyle {
@@ -128,7 +129,8 @@ impl PartKind {
         }
     }
 
-    /// Returns the colour of the part at `t` in a style. Applies to parts in one colour.
+    /// Returns the colour of the render part at `t` in a style. Applies to render parts in one
+    /// colour.
     pub(super) fn colour(
         &self,
         t: f64,
@@ -148,13 +150,13 @@ impl PartKind {
         }
     }
 
-    /// Returns whether the part's vertices must be rewritten because the frame has moved
-    /// (`has_moved`) or the style has changed (`is_restyled`).
+    /// Returns whether the vertices of the render part must be rewritten because the frame has
+    /// moved (`has_moved`) or the style has changed (`is_restyled`).
     pub(super) fn is_outdated(&self, has_moved: bool, is_restyled: bool, frame: &Frame) -> bool {
         match self {
             Self::SourceGhost | Self::TargetGhost => false,
-            // Without a warp only the material changes. A new part is stale, so its vertices are
-            // written once.
+            // Without a warp only the material changes. A new render part counts as outdated, so
+            // its vertices are written once.
             Self::Field | Self::Picture => {
                 has_moved && frame.transition().method().warp() != WarpKind::None
             }
@@ -167,13 +169,15 @@ impl PartKind {
 }
 
 impl StagePart {
-    /// Returns whether the graphics card evaluates the part's vertices at `t` from a recording.
+    /// Returns whether the graphics card evaluates the vertices of the render part at `t` from a
+    /// recording.
     pub(super) fn is_gpu_played(&self, upload: Option<&UploadState>, t: f64) -> bool {
         let is_uploaded = upload.is_some_and(|upload| upload.covers(t));
         is_uploaded && matches!(self.paint, StagePaint::Recorded(_))
     }
 
-    /// Returns whether the part is shown and the CPU must compute vertex positions for it at `t`.
+    /// Returns whether the render part is shown and the CPU must compute vertex positions for it at
+    /// `t`.
     pub(super) fn needs_positions(
         &self,
         frame: &Frame,
@@ -185,7 +189,7 @@ impl StagePart {
         self.kind.is_shown(style) && is_outdated && !self.is_gpu_played(upload, t)
     }
 
-    /// Writes the part's vertices for a frame and a style into its mesh.
+    /// Writes the vertices of the render part for a frame and a style into its mesh.
     pub(super) fn write(&mut self, frame: &Frame, style: &StageStyle, mesh: &mut Mesh) {
         let placement = frame.placement();
         let (points, faces, origin) = (&placement.in_frame, &placement.faces, self.origin);
@@ -210,11 +214,12 @@ impl StagePart {
     }
 }
 
-/// Moves render parts to their place in Bevy's world, whose origin is the anchor of the view.
+/// Moves render parts to their place in Bevy's world, whose origin is the point
+/// [`StageView::anchor`] of the plane.
 pub(super) fn place_parts(view: Res<StageView>, mut parts: Query<(&StagePart, &mut Transform)>) {
     for (part, transform) in &mut parts {
-        // The difference is taken in double precision: the design and the anchor may lie far from
-        // zero, but near each other.
+        // The difference is taken in double precision: the design and the point of the plane at
+        // Bevy's origin may lie far from zero, but near each other.
         let offset = (part.origin - view.anchor()).as_vec2();
         let translation = offset.extend(part.kind.z());
         let mut current = transform.map_unchanged(|transform| &mut transform.translation);

@@ -33,8 +33,8 @@ pub(super) struct PictureMaterial {
 /// Uniform of [`PictureMaterial`], with the same members as in `colours.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
 pub(super) struct PictureUniform {
-    /// Rectangle outside which nothing is drawn, relative to the part's origin: minimum x and y,
-    /// maximum x and y.
+    /// Rectangle outside which nothing is drawn, relative to the origin of the render part: minimum
+    /// x and y, maximum x and y.
     window: Vec4,
     /// Fraction of the target picture in the mix.
     share: f32,

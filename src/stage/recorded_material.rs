@@ -29,8 +29,8 @@ pub(super) const VERTEX_INDEX: MeshVertexAttribute = MeshVertexAttribute::new(
 /// Number of four-component vectors that are needed for [`MOST_COEFFICIENTS`] weights.
 const WEIGHT_VECTORS: usize = MOST_COEFFICIENTS.div_ceil(4);
 
-/// Material with one opaque colour for faces or their edges, and with the recorded interval that is
-/// played.
+/// Material with one opaque colour for faces or their edges, and with the recorded interval that
+/// the vertex shader evaluates.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
 #[bind_group_data(InkKind)]
 pub(super) struct RecordedMaterial {

@@ -42,7 +42,7 @@ impl RecordingGpu {
     }
 }
 
-/// Inserts the resource [`RecordingGpu`] if the graphics card can play recordings.
+/// Inserts the resource [`RecordingGpu`] if the graphics card can evaluate recordings.
 pub(super) fn detect_gpu(
     mut commands: Commands,
     device: Option<Res<RenderDevice>>,

@@ -1,9 +1,9 @@
-//! Triangulates rings filled by the non-zero rule, for transitions without faces or with transient
-//! parts and holes.
+//! Triangulates boundary loops filled by the non-zero rule, for transitions without faces or with
+//! transient parts and holes.
 //!
-//! The rings may cross themselves and each other, so they are triangulated anew in each frame (by
+//! The loops may cross themselves and each other, so they are triangulated anew in each frame (by
 //! the crate `i_triangle`, a sweep over a grid of 64-bit integers; a few microseconds per vertex).
-//! Unlike other render parts, filled rings allocate memory in each frame.
+//! Unlike other render parts, filled loops allocate memory in each frame.
 
 use bevy::mesh::Indices;
 use bevy::prelude::*;
@@ -13,8 +13,8 @@ use i_triangle::float::triangulatable::Triangulatable;
 use crate::content::Content;
 use crate::transition::Frame;
 
-/// Maximum absolute coordinate, relative to the origin, of rings that are filled (resource limit:
-/// 32-bit floats end at 3e38, and `i_triangle` panics from 2^500 on).
+/// Maximum absolute coordinate, relative to the origin, of boundary loops that are filled (resource
+/// limit: 32-bit floats end at 3e38, and `i_triangle` panics from 2^500 on).
 const MAX_COORDINATE: f64 = 1e30;
 
 /// Vertex positions of a triangle mesh, and the indices of its faces' corners.
@@ -26,8 +26,8 @@ pub(super) fn degenerate_triangle() -> RingFill {
     (vec![[0.0; 3]; 3], vec![0, 1, 2])
 }
 
-/// Writes the triangulated rings of a frame's solid content into `mesh`; positions are relative to
-/// `origin`.
+/// Writes the triangulated boundary loops of a frame's solid content into `mesh`; positions are
+/// relative to `origin`.
 pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
     let Content::Solid(solid) = frame.transition().content() else {
         return;
@@ -39,9 +39,9 @@ pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
     mesh.insert_indices(Indices::U32(indices));
 }
 
-/// Triangulates rings; positions are relative to `origin`. The result shows nothing if the rings
-/// have no area, or if a coordinate is not finite or exceeds [`MAX_COORDINATE`]. Such coordinates
-/// can occur for t far outside [0, 1].
+/// Triangulates the area that boundary loops enclose; positions are relative to `origin`. The
+/// result shows nothing if the loops have no area, or if a coordinate is not finite or exceeds
+/// [`MAX_COORDINATE`]. Such coordinates can occur for t far outside [0, 1].
 pub(super) fn triangulate(rings: &[Vec<DVec2>], origin: DVec2) -> RingFill {
     let to_contour = |ring: &Vec<DVec2>| -> Vec<[f64; 2]> {
         ring.iter().map(|&p| (p - origin).to_array()).collect()

@@ -1,7 +1,7 @@
 //! Moves the frame of each morph to the t of its [`Blend`].
 //!
-//! If the graphics card plays all visible parts of a morph, the CPU computes its vertices only when
-//! they are read; see [`Morph::frame`].
+//! If the graphics card evaluates all visible render parts of a morph from a recording, the CPU
+//! computes its vertices only when they are read; see [`Morph::frame`].
 //!
 //! Guaranteed: nothing is allocated and nothing can fail. An unchanged t costs nothing, and the
 //! morph is not marked as changed.

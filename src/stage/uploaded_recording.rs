@@ -14,7 +14,7 @@ use super::recorded_material::RecordedSum;
 pub(super) enum UploadState {
     /// The upload is running.
     Uploading(Task<Option<UploadedIntervals>>),
-    /// The upload has finished; the graphics card can play the recording.
+    /// The upload has finished; the graphics card can evaluate the recording.
     Ready(UploadedIntervals),
     /// The recording does not fit into the memory of the graphics card.
     Refused,

@@ -183,18 +183,18 @@ fn disc_coordinates(discs: usize) -> Vec<[f32; 2]> {
         .repeat(discs)
 }
 
-/// Lines of constant width on the screen: one quad per segment, which the vertex shader widens by
-/// moving its corners apart.
+/// Lines of constant width on the screen: one quad per line segment, which the vertex shader widens
+/// by moving its corners apart.
 ///
 /// Segments of an outline meet along their mitre and do not overlap; if they did, dots would be
 /// visible where anti-aliased edges are drawn twice.
 #[derive(Clone, Debug, Default)]
 pub(super) struct OutlineSegments {
-    /// For each corner of a quad: the position of the segment's end at which the corner lies before
-    /// the segment is widened.
+    /// For each corner of a quad: the position of the line segment's end at which the corner lies
+    /// before the segment is widened.
     pub(super) positions: Vec<[f32; 3]>,
-    /// For each corner of a quad: its offset (x, y) from the nearer end of the segment, in half
-    /// line widths, and the side of the segment on which the corner lies, −1 or 1.
+    /// For each corner of a quad: its offset (x, y) from the nearer end of the line segment, in
+    /// half line widths, and the side of the segment on which the corner lies, −1 or 1.
     pub(super) offsets: Vec<[f32; 3]>,
 }
 
@@ -212,17 +212,17 @@ impl OutlineSegments {
         segments
     }
 
-    /// Adds an invisible segment, since a mesh must not be empty.
+    /// Adds an invisible line segment, since a mesh must not be empty.
     pub(super) fn push_nothing(&mut self) {
         self.push([DVec2::ZERO; 2], [DVec2::ZERO; 2], DVec2::ZERO);
     }
 
-    /// Returns the number of quads, one per segment.
+    /// Returns the number of quads, one per line segment.
     pub(super) fn quads(&self) -> usize {
         self.positions.len() / 4
     }
 
-    /// Adds the segments of a closed outline.
+    /// Adds the line segments of a closed outline.
     fn push_ring(&mut self, ring: &[DVec2], origin: DVec2) {
         let n = ring.len();
         let across = |i: usize| (ring[(i + 1) % n] - ring[i % n]).normalize_or_zero().perp();
@@ -233,8 +233,8 @@ impl OutlineSegments {
         }
     }
 
-    /// Adds the quad of a segment. `offsets` are the offsets of the quad's left corners from the
-    /// two ends of the segment, in half line widths.
+    /// Adds the quad of a line segment. `offsets` are the offsets of the quad's left corners from
+    /// the two ends of the segment, in half line widths.
     fn push(&mut self, ends: [DVec2; 2], offsets: [DVec2; 2], origin: DVec2) {
         for (p, offset) in ends.into_iter().zip(offsets) {
             // Both corners at an end have the same position; the vertex shader separates them.
@@ -273,8 +273,8 @@ mod tests {
         (points, all.into_iter().next().expect("bars"))
     }
 
-    /// Returns the length of a quad's shape coordinates, interpolated at the point `p` of the
-    /// plane. The length is 1 on the edge of the shape.
+    /// Interpolates the `coordinates` of the quad's corners at the point `p` of the plane, and
+    /// returns the length of the resulting vector. The length is 1 on the edge of the shape.
     fn reach(quad: &[[f32; 3]], coordinates: &[[f32; 2]], p: [f32; 2]) -> f32 {
         // Quads are parallelograms; edges lead from corner 0 to corners 1 and 2.
         let at = |k: usize| glam::Vec2::new(quad[k][0], quad[k][1]);

@@ -1,11 +1,11 @@
 //! Makes Bevy compile render pipelines in advance: spawns a triangle without area in each material
 //! and vertex layout that render parts use.
 //!
-//! Guaranteed: no part is missing from the first frame of a transition. Without warm-up, a part
-//! would be missing until its pipeline is compiled, and the stage would flicker whenever a
-//! transition of a new kind replaces another. Not guaranteed: pictures, and distance fields that
-//! are blended on the linear scale or shown with lines or signed colours; the stage flickers when
-//! one of these is first shown.
+//! Guaranteed: no render part is missing from the first frame of a transition. Without warm-up, a
+//! render part would be missing until its pipeline is compiled, and the stage would flicker
+//! whenever a transition of a new kind replaces another. Not guaranteed: pictures, and distance
+//! fields that are blended on the linear scale or shown with lines or signed colours; the stage
+//! flickers when one of these is first shown.
 
 use bevy::camera::visibility::NoFrustumCulling;
 use bevy::mesh::{Indices, PrimitiveTopology};
@@ -48,7 +48,7 @@ fn with_offsets(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, vec![[0.0_f32; 3]; 3])
 }
 
-/// Adds the vertex indices of recorded parts to the mesh.
+/// Adds to the mesh the vertex indices with which the shader reads recordings.
 fn with_numbers(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(VERTEX_INDEX, vec![0_u32; 3])
 }

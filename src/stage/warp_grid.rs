@@ -32,8 +32,8 @@ pub(super) struct GridUniform {
     colour: LinearRgba,
     /// Colour around the lines, which keeps them readable on pictures.
     halo: LinearRgba,
-    /// Rectangle outside which no lines are drawn, relative to the part's origin: minimum x and y,
-    /// maximum x and y.
+    /// Rectangle outside which no lines are drawn, relative to the origin of the render part:
+    /// minimum x and y, maximum x and y.
     window: Vec4,
     /// Side length of a grid square, in units of the plane.
     spacing: f32,

@@ -1,5 +1,5 @@
-//! Named easing functions. An easing function is an increasing map of [0, 1] onto itself; it shapes
-//! how t runs over time, or how one colour fades into another.
+//! Named easing functions. An easing function is an increasing function from [0, 1] onto [0, 1]; it
+//! shapes how t runs over time, or how one colour fades into another.
 //!
 //! This file contains the four named easings. The module `easing_curve` adds cubic Bézier easings
 //! with two free handles.

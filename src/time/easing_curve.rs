@@ -44,7 +44,7 @@ impl EasingBezier {
     #[must_use]
     pub fn from_named(easing: NamedEasing) -> Self {
         // Every named easing is a polynomial in x of degree at most three. With the handles at x =
-        // 1/3 and x = 2/3 the Bézier parameter equals x, so the two are identical.
+        // 1/3 and x = 2/3 the Bézier parameter equals x, so the Bézier easing equals the named one.
         let third = 1.0 / 3.0;
         Self(match easing {
             NamedEasing::Linear => [third, third, 2.0 * third, 2.0 * third],

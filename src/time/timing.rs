@@ -96,7 +96,7 @@ pub struct Timing {
     /// Duration of a pass in seconds without pauses, positive. A segment with a separate duration
     /// takes that time instead of its share.
     pub duration_secs: f64,
-    /// Easing of all segments, except those whose stop at the smaller t sets its own.
+    /// Easing of each segment, unless the stop at its smaller t has a separate easing.
     pub easing: EasingFunction,
     /// Pause at each end of a pass in seconds, not negative.
     pub hold_secs: f64,
@@ -115,7 +115,7 @@ pub enum TimingError {
     /// The duration is not positive or not finite.
     #[error("the film cannot last {0} seconds; give a positive duration")]
     Duration(f64),
-    /// The pause at the ends is negative or not finite.
+    /// The pause at the ends of a pass is negative or not finite.
     #[error("a pause cannot last {0} seconds; give 0 or more")]
     Hold(f64),
     /// The values of t at the ends of a pass are equal or not finite.
@@ -285,8 +285,8 @@ impl Timing {
         own.max(if is_end { self.hold_secs } else { 0.0 })
     }
 
-    /// Returns the t of the two neighbouring stops, or ends of the pass, between which `t` lies.
-    /// They are in the direction of the pass and never equal.
+    /// Returns the t of the two neighbouring stops, or ends of the pass, between which `t` lies, in
+    /// the order in which the pass reaches them. The two are never equal.
     fn segment(&self, t: f64, stops: &[TransitionStop]) -> (f64, f64) {
         // If the pass runs downwards, all t are negated, so that t always increases.
         let sign = (self.to - self.from).signum();
@@ -370,8 +370,8 @@ mod tests {
             to: 0.0,
             ..timing
         };
-        // In a pass from t = 1 to t = 0, the easing curve starts at the end of the segment that the
-        // pass reaches first, here at t = 1.
+        // In a pass from t = 1 to t = 0, the easing of a segment starts at its larger t, here at t
+        // = 1.
         assert!(down.t_at(0.25, &stops) > 0.9);
         assert_eq!(down.t_at(0.75, &stops), 0.25);
     }

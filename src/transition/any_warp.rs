@@ -1,4 +1,4 @@
-//! The warp of a transition, and how it was determined.
+//! The warp of a transition, with the match and the solved motion from which it was built.
 
 use super::note::TransitionNote;
 use super::solution_cache::KeyedSolution;
@@ -23,7 +23,8 @@ pub(super) enum AnyWarp {
     RigidElastic(RigidElasticWarp<Arap>),
     /// Rigid parts that move from one blend of many designs to another.
     Blend(AlongBlend),
-    /// Warp of the plane by lines, scattered points or a lattice, evaluated on a grid.
+    /// Warp of the whole plane that follows lines, scattered points or a lattice; evaluated at the
+    /// points of a grid.
     Plane(Arc<dyn Warp>),
 }
 
@@ -41,7 +42,7 @@ impl AnyWarp {
         }
     }
 
-    /// Returns the warp as shared data, for a recording to own.
+    /// Returns the warp as an [`Arc`], so that a recording can own it.
     pub fn to_shared(&self) -> Arc<dyn Warp> {
         match self {
             Self::Identity(still) => Arc::new(*still),
@@ -54,8 +55,8 @@ impl AnyWarp {
         }
     }
 
-    /// Returns the interpolation of rigid parts, without part timings; `None` for other warps. If
-    /// there is a common rigid motion, the interpolation is relative to that motion.
+    /// Returns the rigidity-preserving interpolation, without part timings; `None` for other warps.
+    /// For [`Self::RigidElastic`], it is relative to the common rigid motion.
     pub fn arap(&self) -> Option<&Arap> {
         match self {
             Self::Rigid(arap) => Some(arap),
@@ -72,7 +73,8 @@ pub(super) struct BuiltWarp {
     pub warp: AnyWarp,
     /// The match of the outlines, if outlines were matched.
     pub matched: Option<RegionMatch>,
-    /// The solved motion of the match, which documents cache.
+    /// The solved motion of the matched outlines. Documents store it, so that it need not be solved
+    /// again.
     pub solution: Option<Arc<KeyedSolution>>,
     /// Automatic pins of a plane warp, if the user has set none.
     pub automatic_pins: Vec<PointPair>,

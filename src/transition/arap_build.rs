@@ -1,5 +1,5 @@
-//! Builds rigidity-preserving interpolations after checking the size of their mesh, and turns the
-//! requested options into those for the search, in which the mesh is not subdivided.
+//! Builds rigidity-preserving interpolations after checking the size of their mesh, and determines
+//! the options with which matches are searched.
 
 use super::error::BuildError;
 use crate::compatible::CompatibleMesh;
@@ -7,8 +7,8 @@ use crate::warp::{Arap, ArapOptions, ArapPath, TimeWindow};
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::Progress;
 
-/// Builds the interpolation of a mesh of outlines. `time_windows` has the same meaning as for
-/// [`Arap::of_outlines`].
+/// Builds the interpolation of a mesh of outlines. `time_windows` holds, for each connected part,
+/// the time window in which the part changes its size if it exists in only one design.
 ///
 /// # Errors
 /// If the mesh is too large, the equations cannot be solved, or the work is cancelled.

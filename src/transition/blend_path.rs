@@ -12,7 +12,8 @@ use crate::geometry::Bounds;
 use crate::warp::{AlongBlend, IdentityWarp, WarpKind};
 use std::sync::Arc;
 
-/// The two blends at the ends of a path, and a box around everything visible between them.
+/// The blends at t = 0 and t = 1, and a box around everything that is visible from one to the
+/// other.
 #[derive(Clone, Debug)]
 pub(crate) struct BlendEnds {
     pub designs: [Arc<Design>; 2],

@@ -65,11 +65,11 @@ pub(super) fn build_boundary_paths(
     Ok((built, solid))
 }
 
-/// Result of matching boundaries: for each part, its pairs of rings; and, if outlines were matched,
-/// the drawings and their match.
+/// Result of matching boundaries: for each piece, its pairs of rings; and, if outlines were
+/// matched, the drawings and their match.
 type MatchedBoundaries = (Vec<Vec<RingPair>>, Option<(DrawingPair, RegionMatch)>);
 
-/// Matches the outlines of two designs.
+/// Matches the outlines of two designs and returns the pairs of rings of each piece.
 fn match_outlines(
     spec: &TransitionSpec,
     bar_width: f64,
@@ -83,8 +83,9 @@ fn match_outlines(
     Ok((parts, Some((drawings, matched))))
 }
 
-/// Returns the pairs of rings of a piece. In the design in which an unmatched ring is missing, the
-/// match has a small seed shape, which becomes a point here: only a triangulation needs its extent.
+/// Returns the pairs of rings of a piece. For a ring that is missing in one of the designs, the
+/// match has a small seed shape there. It is replaced by a point, because boundary paths, unlike
+/// triangulations, need no extent.
 fn rings(piece: &PieceMatch) -> Vec<RingPair> {
     let Some(outer_ring) = piece.rings.first() else {
         return Vec::new();

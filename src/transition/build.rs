@@ -68,7 +68,7 @@ fn build_data(
     spec: &TransitionSpec,
     progress: &dyn Progress,
 ) -> Result<TransitionData, BuildError> {
-    // This check comes first because it is cheap. The window uses it to disable buttons.
+    // This check comes first because it is cheap. The application uses it to disable buttons.
     TransitionSpec::available(spec.method, &spec.source, &spec.target)?;
     let progress = &OverallProgress::new(progress).patient(spec.patient);
     if spec.method.warp() == WarpKind::Arap {

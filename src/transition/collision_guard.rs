@@ -2,28 +2,29 @@
 //!
 //! The as-rigid-as-possible motion does not know of collisions: faces may fold, and outlines may
 //! pass through each other. Every motion is therefore examined at every t
-//! ([`crate::recording::proof`]). If that proof fails, two remedies are tried in turn, each of them
-//! in both directions of t:
+//! ([`crate::recording::proof`]). If that proof fails, two remedies are tried one after the other,
+//! each of them forwards and backwards in t:
 //!
 //! 1. If a part that exists in only one design collides, its time window is shortened, so that the
 //!    part appears later or disappears earlier.
-//! 2. The motion is stepped through, and vertices are displaced wherever faces would fold or
-//!    outlines would come too close. The displacements minimise a smoothing energy, so that they
-//!    are smooth dents without spikes.
+//! 2. Vertices are displaced, step by step in t, wherever faces would fold or outlines would come
+//!    too close. The displacements minimise a smoothing energy, so that they are smooth dents
+//!    without spikes.
 //!
-//! Each result is examined again, and the steps are refined where the proof still fails. The caller
-//! can also place the colliding parts anew ([`FailedProof::births`]).
+//! Each result is examined again. Where the proof still fails, the second remedy is repeated with
+//! smaller steps of t. The caller can also choose new positions for the colliding parts
+//! ([`FailedProof::births`]).
 //!
-//! Guaranteed: a motion that can be proved is returned unchanged, bit for bit; both ends remain the
-//! designs; the direction of the motion makes no difference except for rounding. Not guaranteed:
-//! that every collision can be avoided. A shape that meets another one head-on is stopped by it and
-//! not led around it. A limb that passes all the way through another is on the other side of it in
-//! the final design, so the two must pass through each other. If no result can be proved, the one
-//! with the fewest folded faces and crossings is returned.
+//! Guaranteed: a motion that can be proved is returned unchanged, bit for bit; at t = 0 and t = 1
+//! the designs are unchanged; swapping the designs reverses the result, except for rounding. Not
+//! guaranteed: that every collision can be avoided. A shape that meets another one head-on stops;
+//! it finds no way around. If a limb lies on the other side of another limb in the target, it must
+//! pass through that limb. If no result can be proved, the one with the fewest folded faces and
+//! crossings is returned.
 //!
 //! - `defects`: the first fold or collision of a motion
 //! - `drawn_pieces`: boundary loops that are drawn, and when
-//! - `window_shifts`: shortened time windows of colliding parts
+//! - `window_shifts`: shortens the time windows of colliding parts
 //! - `outlines`: vertices and edges that must not meet, and pairs of them that are close
 //! - `compliance`: displacement of the whole mesh when one vertex is pushed
 //! - `push`: the smallest displacement that satisfies all contact constraints
@@ -51,10 +52,10 @@ use outlines::GuardedOutlines;
 use rayon::prelude::*;
 use window_shifts::WindowShift;
 
-/// Number of equal steps of t from 0 to 1 (heuristic).
+/// Number of equal steps of t from 0 to 1 in the first pass that displaces vertices (heuristic).
 const EVEN: u32 = 64;
-/// Additional times after t = 0, and at the same distances before t = 1, where the two sides of a
-/// cut move apart (heuristic).
+/// Additional times in the first pass: after t = 0, when the two sides of a cut begin to move
+/// apart, and equally long before t = 1 (heuristic).
 const NEAR_ENDS: [f64; 4] = [1.0 / 1024.0, 1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0];
 
 /// Times closer than this are treated as one (tolerance: far shorter than a step).
@@ -78,11 +79,12 @@ const COMPARED: u32 = 256;
 pub(super) struct FailedProof([(GuardDirection, GuardCandidate); 2]);
 
 impl FailedProof {
-    /// Examines a motion. Returns `None` if it is proved, if it has too many faces, or if it cannot
-    /// be recorded.
+    /// Examines a motion at every t. Returns `None` if it is proved, if it has too many faces, or
+    /// if it cannot be recorded.
     ///
-    /// `pieces` is the number of pieces. `swelling` contains the indices of the pieces that swell:
-    /// they are not drawn along the mesh boundary and are therefore not examined.
+    /// `pieces` is the number of pieces. `swelling` contains the indices of the pieces that swell,
+    /// that is, grow in thickness within their outline. Their drawn outlines differ from the
+    /// boundary of the mesh, so they are not examined.
     ///
     /// # Errors
     /// If the motion cannot be swapped or the work is cancelled.
@@ -128,7 +130,8 @@ impl FailedProof {
         there.into_iter().chain(back.map(|t| 1.0 - t)).collect()
     }
 
-    /// Returns the best motion that the remedies achieve.
+    /// Shortens time windows and then displaces vertices until the proof succeeds. If it never
+    /// does, returns the motion with the fewest folded faces and crossings.
     ///
     /// # Errors
     /// If a motion cannot be built or the work is cancelled.
@@ -152,16 +155,18 @@ impl FailedProof {
     }
 }
 
-/// A remedy: makes a new candidate from a candidate of the same direction.
+/// A function that changes a motion to avoid its collisions. The returned motion has the same
+/// direction of t.
 type GuardStage<'a> =
     dyn Fn(&GuardDirection, &GuardCandidate) -> Result<GuardCandidate, BuildError> + Sync + 'a;
 
-/// A motion that was tried, with its defects.
+/// A motion, possibly changed to avoid collisions, with its defects.
 #[derive(Clone)]
 struct GuardCandidate {
     film: Arap,
     trouble: Option<FirstDefect>,
-    /// Number of folded faces and crossings, summed over all steps; 0 if the motion is proved.
+    /// Number of folded faces and crossings, summed over [`COMPARED`] samples; 0 if the motion is
+    /// proved.
     seen: usize,
     /// Difference from the original motion: the sum of the squared displacements, plus the total
     /// time by which time windows were shortened.
@@ -169,9 +174,9 @@ struct GuardCandidate {
 }
 
 impl GuardCandidate {
-    /// Returns the cost by which candidates are compared; the lowest is best. Proved motions come
-    /// first, then those with fewer folded faces and crossings, then those that differ less from
-    /// the original.
+    /// Returns the cost by which changed motions are compared; the lowest is best. Proved motions
+    /// come first, then those with fewer folded faces and crossings, then those that differ less
+    /// from the original.
     fn order(&self) -> f64 {
         let differs = self.differs / (1.0 + self.differs);
         match self.trouble {
@@ -181,14 +186,14 @@ impl GuardCandidate {
     }
 }
 
-/// One direction of the motion: the original motion from its t = 0, and its drawn pieces.
+/// The original motion in one direction of t, and the pieces that are drawn.
 struct GuardDirection {
     plain: Arap,
     drawn: DrawnPieces,
 }
 
 impl GuardDirection {
-    /// Examines a motion. Returns `None` if it cannot be recorded.
+    /// Records a motion and counts its defects. Returns `None` if the motion cannot be recorded.
     fn tried(
         &self,
         film: Arap,
@@ -223,7 +228,7 @@ impl GuardDirection {
     }
 
     /// Shortens the time windows of colliding parts that exist in only one design. Returns `plain`
-    /// if a window would become too short.
+    /// unchanged if a time window would become too short.
     fn retimed(
         &self,
         plain: &GuardCandidate,
@@ -248,8 +253,8 @@ impl GuardDirection {
         Ok(tried)
     }
 
-    /// Displaces colliding vertices, with finer time steps after each attempt that could not be
-    /// proved. Returns the best candidate, which may be `start`.
+    /// Displaces colliding vertices, with finer time steps after each motion that could not be
+    /// proved. Returns the best motion, which may be `start`.
     fn pushed(
         &self,
         start: &GuardCandidate,
@@ -286,7 +291,7 @@ impl GuardDirection {
     }
 }
 
-/// Returns the times at which the first pass stops, in increasing order.
+/// Returns the times at which the first pass displaces vertices, in increasing order.
 fn times() -> Vec<f64> {
     let even = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN));
     let near = NEAR_ENDS.iter().flat_map(|&t| [t, 1.0 - t]);
@@ -306,8 +311,8 @@ fn divide(times: &mut Vec<f64>, t: f64) {
     times.dedup_by(|b, a| *b - *a < SAME);
 }
 
-/// Creates a guard from displacements, limited to the time span in which a vertex is displaced,
-/// plus one time on either side.
+/// Creates a guard, the stored displacements of a motion, from the displacements at all times. The
+/// guard starts one time before the first displacement and ends one time after the last.
 fn guard(moved: stepper::GuardDisplacements) -> Option<Guard> {
     let moves = |k: &usize| moved[*k].1.iter().any(|&by| by != DVec2::ZERO);
     let first = (0..moved.len()).find(moves)?.saturating_sub(1);
@@ -317,7 +322,8 @@ fn guard(moved: stepper::GuardDisplacements) -> Option<Guard> {
     Guard::new(times, &moved)
 }
 
-/// Returns the number of folded faces and crossings, summed over [`COMPARED`] steps.
+/// Returns the number of folded faces and crossings, summed over the samples between t = 0 and
+/// t = 1 in [`COMPARED`] equal steps.
 fn seen(film: &Arap, drawn: &[DrawnLoop]) -> usize {
     let at = |step: u32| {
         let t = f64::from(step) / f64::from(COMPARED);

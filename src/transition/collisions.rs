@@ -1,5 +1,5 @@
-//! Finds the pieces (connected parts of the match of two designs) that collide during the motion,
-//! and a small set of pieces whose removal resolves all collisions.
+//! Finds the matched pieces that collide during the motion, and a small set of pieces whose removal
+//! resolves all collisions.
 //!
 //! The motion is sampled at a few times; collisions between two samples are missed. The set is a
 //! vertex cover of the colliding pairs. It is found greedily, starting with the piece that has the

@@ -1,4 +1,4 @@
-//! Places designs in one common frame.
+//! Places designs in one common coordinate system, the common frame.
 
 use crate::design::{Design, DesignForm};
 use crate::geometry::{Bounds, DVec2, Similarity, SimilarityError, twice_signed_area};
@@ -26,8 +26,8 @@ named! { DesignFit {
     SameArea: "same-area", "Same area", "Aligns the centres and scales to equal area";
 } }
 
-/// Places a design in the frame of the first one: fits the design to the first one, then applies
-/// `place` about the design's centre. The first design itself is placed in the same way.
+/// Places a design in the coordinate system of the first one: fits the design to the first one,
+/// then applies `place` about the design's centre. Also places the first design itself.
 ///
 /// # Errors
 /// If the placement is not a similarity, or moves the design out of the permitted range of
@@ -43,8 +43,8 @@ pub fn place_in_frame(
     Ok(transformed(design, by))
 }
 
-/// Returns the similarity that places a design in the frame of the first one; [`place_in_frame`]
-/// applies it.
+/// Returns the similarity that places a design in the coordinate system of the first one;
+/// [`place_in_frame`] applies it.
 ///
 /// # Errors
 /// If the placement is not a similarity.
@@ -77,7 +77,8 @@ pub fn frame_similarity(
 }
 
 /// Returns the boxes of two designs if both are photographs. Photographs have no coordinates of
-/// their own; aligning their lower left corners would crop them on the other sides.
+/// their own; if their lower left corners were aligned, they would be cropped only at the top and
+/// on the right.
 fn photographs(designs: [&Design; 2]) -> Option<[Bounds; 2]> {
     let [first, second] = designs.map(|design| {
         let picture = design.picture.as_ref();

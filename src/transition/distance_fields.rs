@@ -46,8 +46,8 @@ pub(super) fn whole_fields(
 type PaintedFieldsResult = (Option<PaintedFields>, Option<TransitionNote>);
 
 /// Computes the distance fields of each paint layer, if the drawings are shown in their own
-/// colours. Parts are paired as for rigid parts. Gradients move with the vertices of `frame`, the
-/// placement of the warp that moves the fields.
+/// colours. Parts are paired as in the method of rigid parts. `frame` is the placement of the warp
+/// that moves the fields; gradients move with its vertices.
 ///
 /// # Errors
 /// If outlines or fields cannot be computed, or the work is cancelled. Drawings with too many

@@ -29,7 +29,7 @@ pub struct VectorFigure {
     /// Paint layers, the lowest first, which together contain all rings. Empty if the figure has no
     /// paints.
     pub layers: Vec<FigureLayer>,
-    /// Both ends of each bar.
+    /// End points of each bar.
     pub bars: Vec<[DVec2; 2]>,
     /// Paints of each bar in source and target; empty if the bars have no paints.
     pub bar_paints: Vec<[Option<Paint>; 2]>,
@@ -174,8 +174,8 @@ impl Frame {
 }
 
 impl VectorFigure {
-    /// Returns the appearance of a design in its own paint. A design without paint is shown in the
-    /// colour of the style at `t`.
+    /// Returns the appearance of a design in its own paint. Layers without paint get the fill
+    /// colour of the [`TransitionStyle`](super::TransitionStyle) at `t`.
     #[must_use]
     pub fn of(design: &Design, t: f64) -> Self {
         if design.paint_layers.is_empty() {

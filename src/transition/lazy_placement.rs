@@ -13,9 +13,9 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 #[derive(Debug)]
 pub(super) struct LazyPlacement {
     t: f64,
-    /// Holds the placer as long as its placement is the one at `t`; empty otherwise.
+    /// Holds the placer if its vertices are placed at `t`; empty otherwise.
     current: OnceLock<Placer>,
-    /// Holds the placer as long as its placement is not yet the one at `t`; otherwise `None`.
+    /// Holds the placer if its vertices are not yet placed at `t`; `None` otherwise.
     outdated: Mutex<Option<Placer>>,
 }
 

@@ -7,8 +7,8 @@ use crate::correspondence::{MatchNote, RegionMatch, RegionMatchError};
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// A deviation from the request with its reason, or a suggestion. The transition plays
-/// nevertheless. Serialised as its message.
+/// A deviation from the requested options with its reason, or a suggestion. The transition is built
+/// nevertheless. Serialised as the text of its message.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TransitionNote {
@@ -40,9 +40,10 @@ pub enum TransitionNote {
     /// The drawings are shown in one colour, because they have too many paints or parts to compute
     /// a distance field for each paint.
     PaintIgnored,
-    /// Part timings were requested, which only rigid parts have.
+    /// Part timings were requested but ignored, because the method is not rigid parts.
     PartTimesIgnored,
-    /// The equations of rigid parts could only be solved after adding a little to their diagonal.
+    /// The equations of rigid parts could only be solved after small numbers were added to the
+    /// diagonal of their matrix.
     DiagonalAdded {
         /// Amount added to the diagonal, as a fraction of the diagonal.
         share: f64,

@@ -26,7 +26,8 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct TransitionOptions {
-    /// Motion of the pins and lines of plane warps between the designs.
+    /// Motion of the pins and lines of a plane warp from source to target: straight, or rotating
+    /// together.
     #[serde(skip_serializing_if = "is_default")]
     pub travel: FeatureTravel,
     /// Width of truss bars, as a fraction of the diameter of the largest design of the sequence.
@@ -44,7 +45,7 @@ pub struct TransitionOptions {
     /// Options for the fading and the stacking order of painted parts.
     #[serde(skip_serializing_if = "is_default")]
     pub coats: PaintLayerOptions,
-    /// Amount of work for the search of a good match.
+    /// Amount of work for the search of a good match of outlines.
     #[serde(skip_serializing_if = "is_default")]
     pub quality: BuildQuality,
     /// Whether shapes are moved aside where they would collide.
@@ -106,10 +107,11 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BuildQuality {
-    /// The first match, without a search for better ones. Only for pieces that would turn far, the
-    /// drawn orientation is tried as well.
+    /// The first match, without a search for better ones. For pieces that would turn far, a match
+    /// that keeps them upright is tried as well.
     Draft,
-    /// Several matches are tried, and the one with the fewest defects is improved further.
+    /// Several matches of each piece are tried, and the one with the fewest defects is improved
+    /// further.
     #[default]
     Best,
 }
@@ -201,8 +203,8 @@ impl Default for FieldOptions {
 }
 
 impl FieldOptions {
-    /// Returns whether the zero boundary lies on the outline. Metrics other than the Euclidean one
-    /// are defined only on the pixels of a binary image.
+    /// Returns whether the zero boundary lies exactly on the outline. This needs the Euclidean
+    /// metric, because the other metrics are defined only on the pixels of a binary image.
     pub(super) fn is_exact(&self) -> bool {
         self.boundary == FieldBoundary::Exact && self.metric == Metric::Euclidean
     }

@@ -11,7 +11,8 @@ use crate::warp::{Arap, PartClock, StaggeredArap};
 use std::collections::BTreeMap;
 
 impl TransitionData {
-    /// Replaces the part timings. With a method other than rigid parts, a note is added instead.
+    /// Replaces the part timings. If the method is not rigid parts, nothing changes except that a
+    /// note is added.
     pub(super) fn with_part_times(mut self, times: &[PartTime]) -> Self {
         self.built_warp
             .notes
@@ -29,8 +30,8 @@ impl TransitionData {
         let Content::Solid(solid) = &mut self.content else {
             return self;
         };
-        // An existing recording stays valid only if there are timings neither before nor after the
-        // change.
+        // An existing recording is kept only if there were no timings before and there are none
+        // now.
         if !times.is_empty() || matches!(self.built_warp.warp, AnyWarp::Staggered(_)) {
             self.recording = RecordingSlot::default();
         }
@@ -48,9 +49,9 @@ impl TransitionData {
     }
 }
 
-/// Returns the distinct clocks in use and, for each part, the index of its clock among these;
-/// `None` for a part without a clock. `of_parts` holds the indices of the parts' clocks in
-/// `clocks`.
+/// Removes duplicate and unused clocks (a clock is the time window and easing of a part). Returns
+/// the remaining clocks and, for each part, the index of its clock among them; `None` for a part
+/// without a clock. `of_parts` holds, for each part, the index of its clock in `clocks`.
 fn used_clocks(
     clocks: &[PartClock],
     of_parts: &[Option<usize>],
@@ -71,8 +72,8 @@ fn used_clocks(
     (distinct, of_parts)
 }
 
-/// Returns, for each connected part of the mesh, the index of its timing in `times`; `None` if it
-/// has none. If several timings apply to a part, the last one wins.
+/// Returns, for each connected part of the mesh, the index of its timing in `times`; `None` if no
+/// timing applies to the part. If several timings apply, the last one wins.
 fn clock_of_parts(
     arap: &Arap,
     matched: Option<&RegionMatch>,
@@ -105,7 +106,8 @@ fn clock_of_parts(
 
 /// Returns the connected part that contains the point of a timing, or else the part nearest to the
 /// point. If several parts contain the point, returns the uppermost one. Parts of the design are
-/// painted in ascending order, so this is the one for which `part` returns the highest index.
+/// painted in ascending order, so the uppermost part is the one for which `part` returns the
+/// highest index.
 fn part_at(
     arap: &Arap,
     of_vertices: &[u32],
@@ -134,18 +136,20 @@ fn part_at(
 }
 
 impl SolidContent {
-    /// Removes all part clocks, so that all parts move at the same time.
+    /// Removes the time windows and easings of all parts, so that all parts move at the same time.
     fn take_clocks(&mut self) {
         self.part_clocks = None;
-        // Layers without paint were only added together with the clocks, so they are removed too.
+        // If the design is shown in one colour, its paint layer was added together with the clocks,
+        // so it is removed too.
         self.paint_layers = self
             .paint_layers
             .take()
             .filter(|layers| !has_no_paint(layers));
     }
 
-    /// Assigns a clock to each loop, hole and vertex. A design in one colour also gets a paint
-    /// layer, since the colour of its parts follows their clocks.
+    /// Assigns a clock (time window and easing) to each loop, hole and vertex. A design in one
+    /// colour also gets a paint layer, because the colour of each part then follows the clock of
+    /// that part.
     fn put_clocks(&mut self, arap: &Arap, clocks: &[PartClock], of_parts: &[Option<usize>]) {
         let of_vertices = arap.mesh().components();
         let clock_of = |v: u32| of_parts[of_vertices[v as usize] as usize].unwrap_or(clocks.len());

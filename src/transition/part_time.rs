@@ -78,7 +78,7 @@ impl PartTime {
         Ok(())
     }
 
-    /// Returns the clock of the part: its time window and easing.
+    /// Returns the clock of the part, that is, its time window and easing.
     #[must_use]
     pub fn clock(&self) -> PartClock {
         let Self {

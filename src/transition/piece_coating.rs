@@ -92,9 +92,9 @@ fn unmatched_side(piece: &PieceMatch) -> Option<Side> {
     }
 }
 
-/// Returns the paint, gradients, stroke and stacking order of each layer. Gradients move with the
-/// vertices that `vertices_along` returns for a layer; `places` are the positions of all vertices
-/// in the designs.
+/// Returns the paint, gradients, stroke and stacking order of each layer. The gradients of a layer
+/// move with the vertices that `vertices_along` returns for that layer; `places` are the positions
+/// of all vertices in the designs.
 pub(super) fn placed_paint_layers(
     drawings: &DrawingPair,
     layers: &PieceLayers,
@@ -152,8 +152,7 @@ fn shading(
 }
 
 /// Returns the height of each layer in the stack of one design, 0 for the lowest. A layer that
-/// exists only in the other design is inserted directly above its lower neighbour in that other
-/// design.
+/// exists only in the other design is inserted directly above the next lower layer of that design.
 fn z_indices(layers: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
     let other = side.other();
     let mut order: Vec<usize> = (0..layers.len())
@@ -172,7 +171,8 @@ fn z_indices(layers: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
             .iter()
             .rposition(is_below)
             .map_or(0, |below| below + 1);
-        // In both designs, appearing layers lie above disappearing layers of the same height.
+        // In both designs, appearing layers lie above disappearing layers at the same place in the
+        // stack.
         let is_disappearing =
             |&&placed: &&usize| side == Side::Source && layers[placed][other].is_none();
         let disappearing_count = order[index..].iter().take_while(is_disappearing).count();

@@ -29,8 +29,8 @@ const MAX_GRID_CELLS: u32 = 160;
 /// limit: some milliseconds on one or two cores, for 60 evaluations per second).
 const MAX_FRAME_WORK: f64 = 3e6;
 
-/// Work of the lattice warp at one grid point, expressed as a number of pins of another warp. It
-/// does not depend on the actual number of pins and lines (heuristic).
+/// Work of the lattice warp at one grid point, expressed as a number of pins of another warp. The
+/// work of the lattice warp does not depend on the actual number of pins and lines (heuristic).
 const LATTICE_WORK: usize = 16;
 
 /// Distance by which a mesh of the plane extends beyond the rectangle that is warped, as a fraction
@@ -58,8 +58,8 @@ pub(super) fn build_plane_warp(
         return rigid(spec, frame, features, progress);
     }
     checkpoint(progress, "warping", 0.0)?;
-    // Solving for all features is one long call. It runs in the background, so that a cancellation
-    // can end the wait for it.
+    // Solving for all features is one long library call. It runs in the background, so that a
+    // cancellation need not wait for its end.
     let (spec, frame, features) = (spec.clone(), *frame, Arc::new(features));
     let features_for_warp = Arc::clone(&features);
     let warp = run_cancellable(progress, move || {
@@ -102,8 +102,8 @@ fn build_grid_warp(
 }
 
 /// Builds a warp that is evaluated on a grid and follows the given pins and lines. If the option
-/// `travel` makes them travel as a whole, the warp is relative to their common rigid motion. `work`
-/// is the work of evaluating the warp at one grid point, as a number of pins; see
+/// `travel` makes the features rotate together, the warp is relative to their common rigid motion.
+/// `work` is the work of evaluating the warp at one grid point, as a number of pins; see
 /// [`MAX_FRAME_WORK`].
 fn on_grid<W: PlaneWarp>(
     spec: &TransitionSpec,
@@ -121,8 +121,8 @@ fn on_grid<W: PlaneWarp>(
     Ok(match rigid {
         Some(rigid) => {
             let warp = RigidElasticPlaneWarp::new(rigid, frame, points, lines, new)?;
-            // Distance fields may leave the frame while they rotate. Pictures are cropped to the
-            // frame.
+            // Distance fields may leave the rectangle `frame` while they rotate. Pictures are
+            // cropped to this rectangle.
             let visible_area = match spec.method.content() {
                 ContentKind::Field => rigid.swept_bounds(frame),
                 ContentKind::Colours | ContentKind::Solid => *frame,
@@ -208,8 +208,8 @@ fn about_pins(
                 if are_automatic && !pins.is_empty() =>
             {
                 *pins = pins.iter().copied().step_by(2).collect();
-                // Removing every other pin always leaves the first pin, so a single remaining pin
-                // is removed here.
+                // Removing every other pin always leaves the first pin, so it is removed here if it
+                // is the only one.
                 if pins.len() == 1 {
                     pins.clear();
                 }
@@ -222,8 +222,8 @@ fn about_pins(
 }
 
 /// Builds a warp that moves the plane as rigidly as the matched outlines allow, relative to the
-/// common rigid motion of the features. The inner error says why no mesh of the plane has the
-/// outlines of both designs as edges.
+/// common rigid motion of the features. If no mesh of the plane has the outlines of both designs as
+/// edges, returns the reason as the inner error.
 fn about_outlines(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -242,7 +242,7 @@ fn about_outlines(
         Some(rigid) => (&rigid.match_to_rest(matched), rigid.frame_to_rest(frame)),
         None => (matched, *frame),
     };
-    // Outlines must lie within the frame to become edges of its mesh.
+    // Outlines must lie within the meshed rectangle to become edges of the mesh.
     let frame = padded_frame(matched, &frame);
     let attempt =
         CompatibleMesh::around_outlines(&frame, matched, &options.triangulation, progress);

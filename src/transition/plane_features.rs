@@ -54,7 +54,7 @@ impl PlaneFeatures {
             lines: settings.lines.clone(),
             ..Self::default()
         };
-        // The outline of a picture is invisible.
+        // The outline of a picture is invisible, so no automatic features are placed along it.
         if spec.method.content() != ContentKind::Field {
             return Ok(requested);
         }
@@ -114,8 +114,8 @@ impl PlaneFeatures {
         matching: &MatchSettings,
         progress: &dyn Progress,
     ) -> Result<Self, BuildError> {
-        // The checkpoint below reports a cancellation, so that it is not mistaken for outlines that
-        // cannot be matched.
+        // A cancellation also makes the match fail. The checkpoint below returns it as a
+        // cancellation, not as outlines that cannot be matched.
         let matched = match_regions(source, target, matching, progress);
         checkpoint(progress, "matching", 0.5)?;
         match matched {
@@ -135,8 +135,8 @@ impl PlaneFeatures {
         self.points.iter().copied().chain(line_points).collect()
     }
 
-    /// Returns the points and the starting points of the lines if the features are automatic;
-    /// otherwise an empty list.
+    /// Returns the points and the starting points of the lines if the features are automatic, so
+    /// that they can be shown as pins; otherwise an empty list.
     pub fn automatic(&self) -> Vec<PointPair> {
         if !self.are_automatic {
             return Vec::new();
@@ -167,7 +167,8 @@ fn point_on_line(line: &LinePair, along: f64) -> PointPair {
     }
 }
 
-/// Returns the lines from each pin of a ring to the next, and from the last to the first.
+/// Returns the lines from each pin of a closed list to the next; the last line ends at the first
+/// pin.
 fn sides(ring: &[PointPair]) -> impl Iterator<Item = LinePair> {
     let next = ring.iter().cycle().skip(1);
     ring.iter().zip(next).map(|(a, b)| LinePair {

@@ -15,8 +15,8 @@ use std::fmt;
 /// Progress reported once the motion has been recorded, in [0, 1] (heuristic).
 const RECORDING_PROGRESS: f64 = 0.5;
 
-/// Result of checking a transition for folded faces and crossing outlines at every t, and what the
-/// check covers.
+/// Result of checking a transition for folded faces and crossing outlines at every t, with the
+/// extent of the check.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TransitionProof {
@@ -50,7 +50,7 @@ impl Transition {
         let Content::Solid(solid) = self.content() else {
             return Ok(None);
         };
-        // The bars of a truss may cross, and the panels between them are invisible.
+        // The bars of a truss may cross, and the mesh faces between them are invisible.
         if solid.loops.is_empty() {
             return Ok(None);
         }
@@ -67,7 +67,7 @@ impl Transition {
     }
 }
 
-/// Returns the boundary loops that are drawn through the positions of their vertices: all loops
+/// Returns the boundary loops whose vertices are drawn at their positions in the mesh: all loops
 /// except those of swelling parts.
 fn drawn_loops(solid: &SolidContent) -> Vec<DrawnLoop> {
     let swells = |k: usize| {
@@ -125,7 +125,8 @@ impl TransitionProof {
         fold.into_iter().chain(meeting).min_by(f64::total_cmp)
     }
 
-    /// Writes how far points are moved aside, and what the check does not cover.
+    /// Writes how far points are moved aside, and which holes, parts and outlines the check does
+    /// not cover.
     fn write_exceptions(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(by) = self.moved_aside {
             let percent = 100.0 * by;

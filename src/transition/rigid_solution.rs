@@ -1,5 +1,5 @@
-//! Solves the motion of matched outlines. Unmatched parts and holes get a position and a time
-//! window in which they collide with nothing, if there is one.
+//! Solves the motion of matched outlines. Gives unmatched parts and holes a position and a time
+//! window in which they collide with nothing, as far as possible.
 
 use super::collision_guard::FailedProof;
 use super::drawing_pair::DrawingPair;
@@ -61,8 +61,8 @@ pub(super) fn solve_best(
     let matched = separation.matched;
     let layers = PieceLayers::of(&matched, &drawings.appearances);
     let arap = stiffen_folds(separation.arap, progress)?;
-    // The schedule of the holes is based on the stiffened motion, which differs slightly from the
-    // motion before stiffening.
+    // The time windows of the holes are chosen for the stiffened motion, because that is the motion
+    // that is shown.
     let schedule_for = |holes: &[PieceHole]| {
         placement::timetable(&matched, &arap, (holes, &layers), spec.options.quality)
     };

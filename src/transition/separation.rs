@@ -1,12 +1,12 @@
 //! Matches the parts of two designs such that, as far as possible, matched parts do not pass
 //! through each other.
 //!
-//! A piece is a connected part of the match: usually a matched pair of parts, or an unmatched part.
-//! Each piece is matched on its own. If matched pieces then collide, some of them are unpaired: the
-//! source part disappears and the target part appears. Pieces that cannot be triangulated are
-//! unpaired too. Collisions are first resolved with draft matches, which are cheap, and then again
-//! with the best match of each piece. In between, large unmatched parts are assigned to
-//! neighbouring groups of parts, if this causes less misfit than letting them appear or disappear.
+//! A piece is a pair of matched parts, a portion of a split part, or an unmatched part. Each piece
+//! is matched on its own. If matched pieces then collide, some of them are unpaired: the source
+//! part disappears and the target part appears. Pieces that cannot be triangulated are unpaired
+//! too. Collisions are first resolved with draft matches, which are cheap, and then again with the
+//! best match of each piece. In between, large unmatched parts are assigned to neighbouring groups
+//! of parts, if this causes less misfit than letting them appear or disappear.
 
 use super::arap_build::{check_size, without_subdivision};
 use super::collisions::{piece_weights, pieces_to_release};
@@ -26,9 +26,9 @@ use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancel
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Maximum number of rounds in which colliding pieces are unpaired. One round may not suffice: a
-/// split part is then split again for the parts with which it is still matched, which can cause new
-/// collisions (resource limit).
+/// Maximum number of rounds in which colliding pieces are unpaired. One round may not suffice: if
+/// one of the pieces of a split part is unpaired, the part is split again among the others, which
+/// can cause new collisions (resource limit).
 const MAX_ROUNDS: u32 = 3;
 
 /// Progress reported once the collisions of the draft matches are resolved, in [0, 1] (heuristic).
@@ -55,7 +55,7 @@ pub(super) struct Separation {
     pub(super) arap: Arap,
     /// All pieces with their meshes, including the unmatched ones; in the order of `matched`.
     pub(super) pieces: Vec<MatchCandidate>,
-    /// The pieces of each group, which a later search reuses.
+    /// The matched pieces of each group of parts. The search for the best matches starts with them.
     groups: ChosenGroups,
 }
 
@@ -125,7 +125,7 @@ pub(super) fn separate(
 type PieceChooser<'a> =
     dyn Fn(&GroupSearch, &dyn Progress) -> Result<Vec<PieceResult>, BuildError> + Sync + 'a;
 
-/// Chooses the draft of each piece; see [`drafts_of_group`].
+/// Returns the draft match of each piece; see [`drafts_of_group`].
 fn requested_matches(
     group: &GroupSearch,
     progress: &dyn Progress,
@@ -147,7 +147,7 @@ fn unpair_until_separate(
     let mut chosen_groups = ChosenGroups::new();
     let (mut round, mut repairs) = (0, 0);
     loop {
-        // Most motions need one round; every round gets half of the remaining progress.
+        // Most motions need only one round, so each round gets half of the remaining progress.
         let done = |rounds: u32| 1.0 - 0.5_f64.powi(rounds as i32);
         let progress = &ProgressSpan::new(progress, done(round), done(round + 1));
         let [matching, solving] = [(0.0, MATCH_PROGRESS), (MATCH_PROGRESS, 1.0)]

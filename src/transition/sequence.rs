@@ -1,9 +1,8 @@
 //! Sequences: transitions one after another, through many designs.
 //!
 //! The parameter t counts the designs: the first design is at 0, the second at 1, and so on. The
-//! transition between two consecutive designs is a *segment*. A pair of designs is a sequence of
-//! one segment, and everything shown, measured or written of it is identical to the single
-//! transition.
+//! transition between two consecutive designs is a *segment*. Two designs form a sequence of one
+//! segment; it is shown, measured and exported exactly like the single transition.
 //!
 //! Guaranteed: at each integer t from 0 to the number of segments, the frame shows the design
 //! itself, whether the preceding or the following segment is evaluated. Not guaranteed: that points
@@ -135,9 +134,9 @@ impl Sequence {
             .collect()
     }
 
-    /// Returns the style of a segment, given the style of the whole sequence. Colours that change
-    /// with t run once through all segments, so that each segment gets its own source and target
-    /// colour.
+    /// Returns the style of a segment, given the style of the whole sequence. The colours of the
+    /// whole sequence change with t; each segment gets the colours at its two designs as its source
+    /// and target colour.
     #[must_use]
     pub fn style_of(&self, segment: usize, style: &TransitionStyle) -> TransitionStyle {
         let layout = SequenceLayout {
@@ -203,9 +202,9 @@ pub fn style_of(
     }
 }
 
-/// Returns the position at `t` between the source colour (0) and the target colour (1) of the
-/// style. It runs from 0 to 1 over all segments, or from 0 to 1 and back to 0 if the sequence is
-/// closed.
+/// Returns the colour at `t` as a position between the source colour (0) and the target colour (1)
+/// of the style. The position runs from 0 to 1 over all segments, or from 0 to 1 and back to 0 if
+/// the sequence is closed.
 #[must_use]
 pub fn colour_fraction(t: f64, layout: SequenceLayout) -> f64 {
     let fraction = t / layout.segment_count.max(1) as f64;

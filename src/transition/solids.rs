@@ -1,8 +1,8 @@
 //! Builds transitions of rigid parts: a common triangulation of both designs, interpolated as
 //! rigidly as possible.
 //!
-//! Two meshes are interpolated with their own triangulation, and two trusses with the panels
-//! between their bars; all other designs are matched as outlines.
+//! Two meshes are interpolated with their own triangulation, and two trusses with the triangulated
+//! areas between their bars; all other designs are matched as outlines.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::arap_build::check_size;
@@ -60,7 +60,8 @@ pub(super) fn rigid_parts(
             (arap, Some(Arc::new(solved)))
         }
     };
-    // The panels of a truss move its joints and are invisible.
+    // The mesh of a truss only determines the motion of its joints. It is invisible, so its loops
+    // are not drawn.
     if solid.bars.is_empty() {
         solid.loops = arap.mesh().boundary_loops();
     }

@@ -311,7 +311,7 @@ mod tests {
             cache_key(&spec.options, &drawings)
         };
         let asked = of(&spec);
-        // The key does not depend on options that apply after solving.
+        // Options that apply only after the motion is solved do not change the key.
         spec.options.arap.subdivisions = 2;
         spec.options.field.cells = 99;
         assert_eq!(asked, of(&spec));
@@ -330,7 +330,7 @@ mod tests {
     #[test]
     fn an_invalid_cached_match_is_computed_again() {
         let mut spec = spec();
-        // Drafts are used, because many transitions are built.
+        // Drafts keep this test short: it builds many transitions.
         spec.options.quality = BuildQuality::Draft;
         let first = built(&spec);
         let expected = rings(&first);
@@ -369,7 +369,8 @@ mod tests {
             };
             assert_eq!(rings(&built(&spec)), expected);
         }
-        // A changed but valid record is used, so the records above were really rejected.
+        // A changed record that is still valid is used. This shows that the records above were
+        // rejected.
         let mut record = record();
         change_life(&mut record, &|life| [life.from, life.to] = [0.3, 0.4]);
         spec.cached_match = CachedMatch {

@@ -159,13 +159,14 @@ impl TransitionSpec {
     /// Checks whether a method can interpolate designs of these kinds, without building anything.
     ///
     /// # Errors
-    /// [`BuildError::Unavailable`] with the reason, which the window shows on the disabled button.
+    /// [`BuildError::Unavailable`] with the reason. The application shows it on the disabled
+    /// button.
     pub fn available(
         cell: TransitionMethod,
         source: &Design,
         target: &Design,
     ) -> Result<(), BuildError> {
-        // Every design has an outline, but only pictures have colours.
+        // Every design has an outline, but only pictures have colours to interpolate.
         if cell.content() != ContentKind::Colours {
             return Ok(());
         }

@@ -1,4 +1,4 @@
-//! The colours in which a transition is shown, shared by window and export.
+//! The colours in which a transition is shown, in the application and in exported files.
 
 use crate::colour::{Gradient, Paint, Rgb};
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ impl Default for TransitionStyle {
 }
 
 impl TransitionStyle {
-    /// Returns the fill colour at `t`; beyond [0, 1], that of the nearer end.
+    /// Returns the fill colour at `t`, which is clamped to [0, 1].
     #[must_use]
     pub fn fill_at(&self, t: f64) -> Rgb {
         self.source.mixed(self.target, t)

@@ -1,5 +1,5 @@
 //! Tests of transitions: methods, frames, notes, cancellation, and the placement of designs in one
-//! frame.
+//! coordinate system.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use super::*;
@@ -238,7 +238,8 @@ fn a_mesh_with_a_hole_is_one_part() {
     }
 }
 
-/// Returns the distance between the first points of the first two rings at t = 0.
+/// Returns the distance between the first points of the first two rings at t = 0; a rigid motion
+/// must preserve it.
 fn ring_distance_at_start(transition: &Transition) -> f64 {
     let rings = transition.frame(0.0).figure().rings;
     rings[0][0].distance(rings[1][0])
@@ -343,7 +344,8 @@ fn a_build_can_be_cancelled_at_every_report() {
 }
 
 fn arrow(turned: bool) -> Arc<Design> {
-    // The arrow is 90 units long and 20 units wide.
+    // The arrow is much longer than high, so it leaves the rectangle around both designs while it
+    // rotates.
     let right = "M5 45h60v-5l30 10l-30 10v-5h-60z";
     let left = "M95 55h-60v5l-30-10l30-10v5h60z";
     svg(if turned { left } else { right })

@@ -1,4 +1,4 @@
-//! The type of a built transition, and access to its parts.
+//! The type of a built transition, and access to its data.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::cached_match::CachedMatch;
@@ -46,7 +46,7 @@ pub(super) struct TransitionData {
     pub method: TransitionMethod,
     /// Source and target, placed in the common frame.
     pub designs: [Arc<Design>; 2],
-    /// The warp, and how it was determined.
+    /// The warp, with the match and the solved motion from which it was built.
     pub built_warp: BuiltWarp,
     pub content: Content,
     /// Box around all frames for t in [0, 1], found by sampling.
@@ -149,19 +149,19 @@ impl Transition {
         self.0.built_warp.warp.as_warp()
     }
 
-    /// Returns the warp as shared data, for a recording to own.
+    /// Returns the warp as an [`Arc`], so that a recording can own it.
     pub(super) fn shared_warp(&self) -> Arc<dyn Warp> {
         self.0.built_warp.warp.to_shared()
     }
 
-    /// Returns the place where the recording is stored once it has been made.
+    /// Returns the cell that holds the recording once it has been requested.
     pub(super) fn recording_slot(&self) -> &RecordingSlot {
         &self.0.recording
     }
 
-    /// Returns the rigidity-preserving interpolation of solid designs, or that of the plane, which
-    /// moves distance fields or pictures; `None` for other warps. If the plane also has a common
-    /// rigid motion, the interpolation is relative to that motion.
+    /// Returns the rigidity-preserving interpolation of solid designs, or of the plane that carries
+    /// distance fields or pictures; `None` for other warps. If the plane also rotates as a whole,
+    /// the interpolation is relative to that rigid motion.
     #[must_use]
     pub fn arap(&self) -> Option<&Arap> {
         self.0.built_warp.warp.arap()
@@ -185,8 +185,8 @@ impl Transition {
         }
     }
 
-    /// Returns the t that the part of a vertex has reached when the transition is at `t`. The two
-    /// differ only if the part has a separate timing.
+    /// Returns the t at which a vertex is evaluated when the transition is at `t`. The two differ
+    /// only if the part of the vertex has its own timing.
     pub(crate) fn part_time_at(&self, vertex: u32, t: f64) -> f64 {
         match &self.0.built_warp.warp {
             AnyWarp::Staggered(warp) => warp.clock(vertex).part_time(t),

@@ -2,17 +2,17 @@
 //!
 //! Alexa, Cohen-Or, Levin, "As-rigid-as-possible shape interpolation" (2000), in the form of
 //! "Design-Space Representation through Blended Transitions", §3.2. Each face T has a local map
-//! M_T(t) that follows a homotopy from the identity to the map from source to target. With weights
-//! W_T and the Jacobian J_T(V) of the vertex positions V, the energy is
+//! M_T(t) that follows a homotopy from the identity to the linear map from source to target. With
+//! weights W_T and the Jacobian J_T(V) of the vertex positions V, the energy is
 //!
 //! E_t(V) = Σ_T tr((J_T(V) − M_T(t)) W_T (J_T(V) − M_T(t))ᵀ).
 //!
 //! The energy is minimal where K U = Σ (M(t) − M_linear(t)) W g. Here U is the deviation of the
 //! vertices from the straight paths (1−t) P + t Q between their positions P and Q in the designs,
 //! M_linear(t) = (1−t) M(0) + t M(1), g are the gradients of the hat functions, and K is the
-//! stiffness matrix of the energy. K does not depend on t and is factored once; a frame takes one
-//! pass over the faces and one back-substitution with two right-hand sides. The symmetric energy
-//! ½E(A→B, t) + ½E(B→A, 1−t) also has a single matrix.
+//! stiffness matrix of the energy. K does not depend on t and is factored once; evaluation at one t
+//! takes one pass over the faces and one back-substitution with two right-hand sides. The symmetric
+//! energy ½E(A→B, t) + ½E(B→A, 1−t) also has a single matrix.
 //!
 //! Guaranteed: at t = 0 and t = 1 the vertices are exactly those of the designs. A rigid target
 //! moves rigidly. With the symmetric energy, exchanging the designs reverses the motion. Not
@@ -21,13 +21,13 @@
 //! - `options`: options, validation and errors
 //! - `angles`: consistent rotation angles of all faces
 //! - `assembly`: gradients, weights and the matrix
-//! - `forces`: vectorised right-hand sides of a frame
+//! - `forces`: vectorised right-hand sides at one t
 //! - `bounded`: local maps with bounded distortion, computed for all faces together
 //! - `strain_limiting`: correction of faces that are sheared beyond that bound
 //! - `boundary_edges`: boundary edges as additional elements of the energy
 //! - `edge_lengths`: lengths of these elements during the motion
 //! - `straight_sides`: constraints that keep straight sides straight
-//! - `frame_solver`: the factored system and the evaluation of a frame
+//! - `frame_solver`: the factored system and its evaluation at one t
 //! - `guard`: displacements that avoid collisions of the outlines
 //! - `ridge`: factorisation of numerically singular matrices
 //! - `part_translations`: positions of the connected parts
@@ -105,15 +105,18 @@ pub struct Arap(Arc<FactoredArap>);
 /// than chosen by the user.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct OutlineParameters<'a> {
-    /// For each connected part that is a point in one of the designs, its time window; `None` for
-    /// other parts. Parts beyond the end of the list have none.
+    /// For each connected part that is a point in one of the designs, the time window in which it
+    /// grows or shrinks; `None` for other parts. Parts beyond the end of the list have no time
+    /// window.
     pub time_windows: &'a [Option<TimeWindow>],
-    /// For each face, the factor of its weight; 1 for faces beyond the end of the list.
+    /// For each face, the factor by which its weight in the energy is multiplied; 1 for faces
+    /// beyond the end of the list.
     pub stiffness: &'a [f64],
 }
 
 impl Arap {
-    /// Decomposes the local maps, assembles the matrix and factors it.
+    /// Builds the interpolation of a mesh: computes the local map of each face, assembles the
+    /// matrix of the energy and factors it.
     ///
     /// # Errors
     /// [`ArapError`] if the options do not fit the mesh, the rotation angles of the faces wind
@@ -133,12 +136,12 @@ impl Arap {
     /// are straight and equally divided in both designs stay straight. A transient part is a
     /// connected part that is a point in one of the designs. `time_windows` holds, for each
     /// transient part, the time window within which the part changes its size. The entry is `None`
-    /// for other parts; parts beyond the end of the list have no window. Unless all parts are
+    /// for other parts; parts beyond the end of the list have no time window. Unless all parts are
     /// transient, transient parts do not affect the position and rotation of the whole design.
     ///
-    /// Before and after its window, a transient part moves with the whole design. With the linear
-    /// homotopy, it stays at its source position before the window and at its target position after
-    /// the window.
+    /// Before and after its time window, a transient part moves with the whole design. With the
+    /// linear homotopy, it stays at its source position before the time window and at its target
+    /// position after it.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -229,7 +232,7 @@ impl Arap {
         Self::from_maps(mesh, maps, options, windows, outline_constraints, progress)
     }
 
-    /// Assembles and factors the matrix of an already subdivided mesh.
+    /// Builds the interpolation of an already subdivided mesh from the local maps of its faces.
     fn from_maps(
         mesh: CompatibleMesh,
         maps: LocalMaps,
@@ -277,13 +280,15 @@ impl Arap {
         &self.0.mesh
     }
 
-    /// Returns the options for the interpolated mesh; their number of subdivisions is 0.
+    /// Returns the options of the interpolation. Their number of subdivisions is 0, because
+    /// [`Self::mesh`] is already subdivided.
     #[must_use]
     pub fn options(&self) -> &ArapOptions {
         &self.0.options
     }
 
-    /// Assembles the matrix of the energy again, for tests and measurements.
+    /// Assembles the matrix of the energy again, for tests and measurements; the interpolation
+    /// itself keeps only its factors.
     #[must_use]
     pub fn system(&self) -> SymmetricMatrix {
         let constraints = self
@@ -293,8 +298,8 @@ impl Arap {
         self.0.maps.matrix(&self.0.mesh, constraints)
     }
 
-    /// Assembles the matrix of the energy without grounding, so that translating a connected part
-    /// has zero energy.
+    /// Returns the matrix of the energy before it is made regular. This matrix is singular:
+    /// translating a connected part costs no energy.
     pub(crate) fn free_system(&self) -> SymmetricMatrix {
         let constraints = self
             .0
@@ -303,7 +308,8 @@ impl Arap {
         self.0.maps.free_matrix(&self.0.mesh, constraints)
     }
 
-    /// Returns the mass of each vertex, from the area around it; masses sum to 1.
+    /// Returns the mass of each vertex, computed from the areas of its faces and bars; masses sum
+    /// to 1.
     pub(crate) fn masses(&self) -> &[f64] {
         &self.0.maps.masses
     }
@@ -311,8 +317,8 @@ impl Arap {
     /// Returns the ridge (a small increase of the diagonal) with which the matrix was factored, or
     /// `None` if none was needed.
     ///
-    /// Only very uneven meshes need a ridge. It makes the interpolation slightly stiffer than
-    /// [`Self::system`].
+    /// Only very uneven meshes need a ridge. The factored matrix is then slightly stiffer than the
+    /// one that [`Self::system`] returns.
     #[must_use]
     pub fn ridge(&self) -> Option<Ridge> {
         self.0.ridge
@@ -346,16 +352,15 @@ impl Arap {
         self.0.maps.whole_angle
     }
 
-    /// Returns the map of a face from source to target; its angle is consistent across shared
-    /// edges.
+    /// Returns the linear map of a face from source to target, as a rotation and a stretch. The
+    /// rotation angle is consistent across shared edges.
     pub(crate) fn local_map(&self, face: usize) -> PolarDecomposition {
         self.0.maps.faces[face].map
     }
 
     /// Returns the interpolation from target to source.
     ///
-    /// Each face rotates by the negated angle of this interpolation, whole turns included; its
-    /// angle is not chosen anew.
+    /// Each face rotates by the negative of its angle in this interpolation, including whole turns.
     ///
     /// # Errors
     /// [`ArapError`] if the job is cancelled or the new matrix cannot be factored.
@@ -432,8 +437,9 @@ impl Arap {
         Some(guard.farthest() / self.mesh().diameter())
     }
 
-    /// Returns the times at which the displacements of the guard, which avoid collisions of the
-    /// outlines, are given. Between these times they change smoothly. Empty without a guard.
+    /// Returns the times at which the guard specifies its displacements, which avoid collisions of
+    /// the outlines. Between these times the displacements change smoothly. The list is empty
+    /// without a guard.
     pub(super) fn guard_times(&self) -> &[f64] {
         self.guard().map(Guard::times).unwrap_or_default()
     }
@@ -470,7 +476,8 @@ impl Arap {
         )
     }
 
-    /// Returns the factor of each face's weight; it is 1 for faces beyond the end of the list.
+    /// Returns, for each face, the factor by which its weight in the energy is multiplied. Faces
+    /// beyond the end of the list have the factor 1.
     pub(crate) fn stiffness(&self) -> &[f64] {
         &self.0.maps.stiffness
     }
@@ -483,22 +490,23 @@ impl Arap {
         self.0.translations.time_windows()
     }
 
-    /// Returns the position at `t` of a part that moves with the whole design.
+    /// Returns the position at `t` of a point that moves with the whole design and, in addition,
+    /// relative to it.
     ///
-    /// `ends` are the part's positions in source and target; `share` is the completed fraction of
-    /// its own motion.
+    /// `ends` holds the positions of the point in source and target. `share`, from 0 to 1, is the
+    /// completed fraction of its motion relative to the design.
     pub(crate) fn carried_position(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
         self.0.translations.carried_position(ends, share, t)
     }
 
-    /// Returns the positions in source and target of a point that moves with the whole design and
-    /// is at `place` at `t`.
+    /// Returns the positions in source and target of a point that moves rigidly with the whole
+    /// design and is at `place` at `t`.
     pub(crate) fn uncarried_ends(&self, place: DVec2, t: f64) -> [DVec2; 2] {
         self.0.translations.uncarried_ends(place, t)
     }
 
-    /// Returns the number of parts whose extra turns can be chosen separately (edge-connected
-    /// components).
+    /// Returns the number of edge-connected components of the faces. Extra whole turns can be
+    /// chosen for each of them separately.
     #[must_use]
     pub fn part_count(&self) -> usize {
         self.0.maps.part_count
@@ -508,9 +516,10 @@ impl Arap {
 impl Arap {
     /// Returns a placer that evaluates each connected part at its own time.
     ///
-    /// `clock(part, t)` returns the time at which `part` is evaluated in the frame at `t`. If the
-    /// options name an anchor vertex, all parts are translated such that this vertex is on its
-    /// straight path, at the time of its part.
+    /// `clock(part, t)` returns the time at which `part` is evaluated when the placer is moved to
+    /// `t`. If the options name an anchor vertex, all parts are translated by one vector, such that
+    /// the anchor lies on the straight line between its positions in the designs. The time of its
+    /// part determines its place on this line.
     pub(in crate::warp) fn placer_by(
         &self,
         clock: impl Fn(usize, f64) -> f64 + Send + Sync + 'static,

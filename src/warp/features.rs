@@ -15,8 +15,9 @@ pub const LINE_SAMPLES: usize = 5;
 /// scattered-point warp solves a dense system of this size for every frame).
 pub const MAX_FEATURES: usize = 512;
 
-/// Largest distance of a feature's coordinates from the frame's centre, in frame diameters, and
-/// largest |t|; larger values are clamped (tolerance: squared coordinates must not overflow).
+/// Limit of each coordinate of a feature, relative to the frame's centre and in frame diameters.
+/// Also the limit of |t|. Larger values are clamped (tolerance: squared coordinates must not
+/// overflow).
 const MAX_DISTANCE: f64 = 1e6;
 
 /// Reason why features are rejected.

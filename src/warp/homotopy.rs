@@ -19,20 +19,20 @@ pub enum Homotopy {
     /// (1−t) I + t M (paper, eq. 3): vertices move on straight lines. A face that rotates by a half
     /// turn collapses to a point halfway.
     Linear,
-    /// R(tθ) ((1−t) I + t S) (paper, eq. 4; Alexa, Cohen-Or, Levin 2000): constant speed of
-    /// rotation, no reflection on [0, 1].
+    /// R(tθ) ((1−t) I + t S) for M = R(θ) S (paper, eq. 4; Alexa, Cohen-Or, Levin 2000): constant
+    /// speed of rotation, no reflection on [0, 1].
     #[default]
     Polar,
-    /// R(tθ) exp(t log S) (paper, eq. 5): det M(t) = (det M)^t is positive for every t, which suits
-    /// extrapolation.
+    /// R(tθ) exp(t log S) for M = R(θ) S (paper, eq. 5): det M(t) = (det M)^t is positive for every
+    /// t, which suits extrapolation.
     Exponential,
-    /// ((1−t) I + t R(θ)) ((1−t) I + t S): the linear path after polar decomposition. It exists
-    /// only to reproduce the paper's figure 7b.
+    /// ((1−t) I + t R(θ)) ((1−t) I + t S) for M = R(θ) S: the linear path after polar
+    /// decomposition. It exists only to reproduce the paper's figure 7b.
     LinearAfterPolar,
-    /// R(tθ) √((1−t) I + t S²) on [0, 1], and the exponential path outside. Squared lengths change
-    /// linearly, so on [0, 1] no angle of the source is distorted more than at t = 1. The ARAP warp
-    /// computes these maps for all edge-connected faces together, by flattening the metrics
-    /// (1−t) I + t S² (Chen, Weber, Keren, Ben-Chen 2013).
+    /// R(tθ) √((1−t) I + t S²) for M = R(θ) S on [0, 1], and the exponential path outside. Squared
+    /// lengths change linearly, so on [0, 1] no angle of the source is distorted more than at
+    /// t = 1. The ARAP warp computes these local maps for all edge-connected faces together, by
+    /// flattening the metrics (1−t) I + t S² (Chen, Weber, Keren, Ben-Chen 2013).
     Bounded,
 }
 
@@ -77,8 +77,8 @@ impl Homotopy {
             Self::Linear => from_identity(map.matrix()),
             Self::Polar => turned * from_identity(map.stretch),
             Self::Exponential => {
-                // exp(t log S): the eigenvalues are positive, because faces are positive in both
-                // designs.
+                // Computes exp(t log S). The eigenvalues λ of the stretch S are positive, because
+                // faces are positively oriented in both designs.
                 turned * SymmetricEigen::of(map.stretch).map(|lambda| lambda.powf(t))
             }
             Self::LinearAfterPolar => {

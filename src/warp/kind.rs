@@ -41,7 +41,7 @@ named! { WarpKind {
 } }
 
 impl WarpKind {
-    /// All warps, in descending order of what they require of the designs.
+    /// All warps, from the one that requires most of the designs to the one that requires least.
     pub const BY_DEMAND: [Self; Self::ALL.len()] = [
         Self::Arap,
         Self::Paths,

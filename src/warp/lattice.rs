@@ -1,21 +1,21 @@
 //! Lattice warp: multilevel cubic B-splines, optionally without folds.
 //!
 //! Lee, Wolberg, Shin, "Scattered data interpolation with multilevel B-splines" (1997). At time t,
-//! a feature with position p in the source and q in the target lies at (1−t) p + t q. Two maps lead
-//! from there to the source and to the target. Each map is a sequence of displacement layers on
-//! increasingly fine lattices; each layer moves the features closer to their positions in the
-//! design.
+//! a feature with position p in the source and q in the target lies at (1−t) p + t q. Two mappings
+//! lead from there to the source and to the target. Each mapping is a sequence of displacement
+//! layers on increasingly fine lattices; each layer moves the features closer to their positions in
+//! the design.
 //!
 //! In fold-free mode the layers are **composed** and each control point moves by at most 0.48 of
 //! the lattice spacing per axis. This makes every layer, and hence the composition, injective
-//! (Choi, Lee 2000). Otherwise the layers are summed as published, and the map may fold even if
+//! (Choi, Lee 2000). Otherwise the layers are summed as published, and the mapping may fold even if
 //! each layer respects the bound.
 //!
-//! Guaranteed: evaluating a frame cannot fail. At t = 0 the map to the source is exactly the
-//! identity; at t = 1 the map to the target is. Exchanging the designs reverses the motion. In
-//! fold-free mode the map never folds, for any features. Not guaranteed: that every feature is
-//! mapped exactly to its position; [`Lattice::residuals`] returns the errors. If two features
-//! coincide at some t but not in a design, the map to that design must miss at least one of them.
+//! Guaranteed: evaluation cannot fail. At t = 0 the mapping to the source is exactly the identity;
+//! at t = 1 the mapping to the target is. Exchanging the designs reverses the motion. In fold-free
+//! mode the mapping never folds, for any features. Not guaranteed: that every feature is mapped
+//! exactly to its position; [`Lattice::residuals`] returns the errors. If two features coincide at
+//! some t but not in a design, the mapping to that design must miss at least one of them.
 //!
 //! The influence of a feature outside the frame fades from a distance of half the frame's longer
 //! side onwards and vanishes at a distance of the full side. The lattices cover all points that are
@@ -72,7 +72,7 @@ const CHUNK: usize = 256;
 pub struct Lattice {
     features: WarpFeatures,
     domain: LatticeDomain,
-    /// Maps from the frame to the source and to the target, built for the most recent t.
+    /// Mappings from the frame to the source and to the target, built for the most recent t.
     stacks: [LayerStack; 2],
 }
 
@@ -105,11 +105,11 @@ impl Lattice {
         self.domain.tolerance
     }
 
-    /// For each feature, returns by how far the maps at t miss its position in the source and its
-    /// position in the target, in plane units.
+    /// For each feature, returns by how far the mappings at t miss its position in the source and
+    /// its position in the target, in plane units.
     ///
-    /// Point pairs come first, then the sample points of each line. The maps into source and target
-    /// are built anew by each call, which costs as much as a frame.
+    /// Point pairs come first, then the sample points of each line. Each call builds the mappings
+    /// into source and target anew, which costs as much as evaluating the warp.
     #[must_use]
     pub fn residuals(&self, t: f64) -> Vec<[f64; 2]> {
         let mut at_t = self.clone();
@@ -119,7 +119,7 @@ impl Lattice {
         both.map(<[f64; 2]>::from).collect()
     }
 
-    /// Builds the maps from the frame to the source and to the target, for time t.
+    /// Builds the mappings from the frame to the source and to the target, for time t.
     fn build(&mut self, t: f64) {
         let [source, target] = &mut self.stacks;
         let (features, ground) = (&self.features, &self.domain);

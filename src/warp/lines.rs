@@ -10,15 +10,15 @@
 //!
 //! where length is that of PQ, dist the distance of X from the segment PQ, and a, b and p are
 //! options. At time t the lines in the frame are interpolated between those of the two designs
-//! (§3.3), and each design is sampled with its own map.
+//! (§3.3), and each design is sampled with its own mapping.
 //!
 //! There are two extensions of the paper. A pin is a line without direction: it translates its
 //! neighbourhood and weighs as much as a line whose length is a tenth of the frame's diameter. A
 //! line that becomes shorter than a thousandth of its counterpart gradually turns into a pin,
 //! because the paper's formula divides by the length.
 //!
-//! Guaranteed: at t = 0 the map to the source is exactly the identity; at t = 1 the map to the
-//! target is. A single pair of lines that keeps its length gives a rigid motion. Exchanging the
+//! Guaranteed: at t = 0 the mapping to the source is exactly the identity; at t = 1 the mapping to
+//! the target is. A single pair of lines that keeps its length gives a rigid motion. Exchanging the
 //! designs reverses the motion. Finite features give finite points. Not guaranteed: absence of
 //! folds. Two lines that cross each other in only one design always cause a fold, and neighbouring
 //! lines that rotate in opposite directions may cause one.
@@ -85,7 +85,7 @@ pub struct LineWarp {
     at_t: LinesAtTime,
 }
 
-/// The lines of one frame, prepared for sampling both designs.
+/// The lines at one t, prepared for sampling both designs.
 #[derive(Clone, Debug)]
 struct LinesAtTime {
     arch: Arch,

@@ -1,14 +1,15 @@
-//! Warps of the plane for many designs: one map from the frame of a blend to each design.
+//! Warps of the plane for many designs: one mapping from the frame of a blend to each design.
 //!
-//! The features of a blend lie between those of all designs, according to the weights. The map from
-//! the blend to a design is that of a warp of two designs at t = 1, whose source is the design and
-//! whose target is the blend. Every feature-based warp of two designs can therefore be used for
-//! many. For two designs the result is that of the warp itself, because each of its two maps
+//! The features of a blend lie between those of all designs, according to the weights. The mapping
+//! from the blend to a design is that of a warp of two designs at t = 1, whose source is the design
+//! and whose target is the blend. Every feature-based warp of two designs can therefore be used for
+//! many. For two designs the result is that of the warp itself, because each of its two mappings
 //! depends only on the features in the frame and in one design.
 //!
-//! Guaranteed: with weight 1 a design is looked up at exactly the same points, bit for bit; the
-//! order of the designs does not matter, except for lines with opposite directions. A frame cannot
-//! fail: where a warp is impossible, points are looked up where they lie.
+//! Guaranteed: if a design has weight 1, each point of the frame shows the design point with the
+//! same coordinates, bit for bit; the order of the designs does not matter, except for lines with
+//! opposite directions. Evaluation cannot fail: if a warp cannot be built, each point of the frame
+//! shows the design point with the same coordinates.
 
 use super::{
     Lattice, LatticeOptions, LineInterpolation, LineOptions, LineWarp, Placement, PlaneGrid,
@@ -116,12 +117,14 @@ impl ManyFeatures {
     }
 }
 
-/// Returns the vector along a blended line. Its length is the blended length. Its direction is the
-/// mean direction of all lines, rotated by the blended angle to that direction.
+/// Returns the vector along a blended line. `lines` holds the same line in each design. The length
+/// is the weighted mean of the lengths. The direction is the unweighted mean direction, rotated by
+/// the weighted mean of the angles from it to the lines.
 fn turned(lines: &[[DVec2; 2]], weights: &[f64]) -> DVec2 {
     let ways = || lines.iter().map(|[a, b]| *b - *a);
     let all: DVec2 = ways().map(DVec2::normalize_or_zero).sum();
-    // If two directions are opposite, the mean is perpendicular to the first, counter-clockwise.
+    // If the directions cancel, the perpendicular of the first line, counter-clockwise, replaces
+    // their mean.
     let middle = match ways().next() {
         Some(first) if all.length() < 1e-9 => first.perp().normalize_or_zero(),
         _ => all.normalize_or_zero(),
@@ -182,7 +185,8 @@ impl PlaneBlend {
         Ok(blend)
     }
 
-    /// Returns the positions of a blend.
+    /// Returns the positions of the grid points in the frame of a blend and in each design. A
+    /// design with weight 0 keeps the positions in the frame.
     ///
     /// # Panics
     /// If the number of weights differs from the number of designs.
@@ -211,8 +215,8 @@ impl PlaneBlend {
         }
     }
 
-    /// Maps positions of the frame of a blend to a design. The first features are those of the
-    /// design, the second those of the blend.
+    /// Replaces the positions `places` in the frame of a blend by those in a design. The first
+    /// argument holds the points and lines of the design, the second those of the blend.
     fn looked(
         &self,
         (points, lines): &(Vec<DVec2>, Vec<[DVec2; 2]>),
@@ -246,7 +250,7 @@ impl PlaneBlend {
     }
 }
 
-/// Replaces positions by those at which a warp at t = 1 looks them up in its source.
+/// Replaces each position in the frame by the source point that a warp shows there at t = 1.
 fn end_of(mut warp: impl PlaneWarp, places: &mut [DVec2]) {
     let frame = places.to_vec();
     let mut in_target = frame.clone();
@@ -322,7 +326,8 @@ mod tests {
                         .expect("a warp").look_up(t, &frame, &mut a, &mut b),
                     ManyWarp::Scattered(options) => ScatteredWarp::new(&FRAME, &points, &lines, *options)
                         .expect("a warp").look_up(t, &frame, &mut a, &mut b),
-                    // The refinement of the lattice depends on both designs.
+                    // Not compared, because rounding may change the number of layers of the
+                    // lattice.
                     ManyWarp::Lattice(_) => continue,
                 }
                 let places = made.places(&[1.0 - t, t]);

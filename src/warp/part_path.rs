@@ -45,16 +45,16 @@ impl PartPath {
         self.offset_at_fraction(t, t, whole_angle)
     }
 
-    /// Returns the offset of the part's centroid from the design's centroid at t, for a part that
-    /// has completed the fraction `share` of its own motion.
+    /// Returns the offset of the part's centroid from the design's centroid at t.
     ///
-    /// `share` runs from 0 to 1; the rotation with the design always follows t.
+    /// `share`, from 0 to 1, is the completed fraction of the part's motion relative to the design;
+    /// the rotation with the design always follows t.
     pub(super) fn offset_at_fraction(&self, t: f64, share: f64, whole_angle: f64) -> DVec2 {
         let unrotated = self.begin * (1.0 - share) + self.turned_end * share;
         DMat2::from_angle(t * whole_angle) * unrotated
     }
 
-    /// Returns the deviation of the offset at t from the straight path between its values at t = 0
+    /// Returns the deviation of the offset at t from the straight line between its values at t = 0
     /// and t = 1; exactly 0 at these two times.
     pub(super) fn deviation(&self, t: f64, whole_angle: f64) -> DVec2 {
         let straight = self.begin * (1.0 - t) + self.offset(1.0, whole_angle) * t;

@@ -1,11 +1,11 @@
-//! Boundary paths: interpolation of matched closed polygons, without their interior.
+//! Boundary paths: interpolation of matched closed polygons (rings), without their interior.
 //!
 //! Vertices move on straight lines or on intrinsic paths (Sederberg, Gao, Wang, Mu, "2-D shape
 //! blending: an intrinsic solution to the vertex path problem", 1993, §3 and §4). Intrinsic paths
 //! interpolate the lengths and directions of the edges, so that rotating limbs keep their length.
 //! This leaves the position of each polygon free: the design's centroid moves on a straight line
-//! and its parts move with the design ([`super::part_path`]). It also leaves whole turns free:
-//! the ones nearest to the best-fit rotation of the designs are chosen.
+//! and its parts move with the design ([`super::part_path`]). It also leaves whole turns free: the
+//! ones nearest to the best-fit rotation of the designs are chosen.
 //!
 //! Guaranteed: at t = 0 and t = 1 the vertices are exactly those of the designs. Vertices are
 //! finite for |t| up to 1e75 and any polygons. On intrinsic paths a rotated and translated copy
@@ -60,7 +60,7 @@ pub struct BoundaryPaths(Arc<BoundaryPathData>);
 struct BoundaryPathData {
     source: Vec<DVec2>,
     target: Vec<DVec2>,
-    /// For each ring, the range of its vertex indices.
+    /// For each ring (closed polygon), the range of its vertex indices.
     rings: Vec<Range<u32>>,
     /// Intrinsic paths, or `None` if the paths are straight.
     intrinsic: Option<IntrinsicPaths>,
@@ -117,7 +117,8 @@ impl Warp for BoundaryPaths {
             let BoundaryPathData { source, target, .. } = &*paths;
             let out = &mut placement.in_frame;
             match &paths.intrinsic {
-                // The ends are copied, because summing the edges would introduce rounding.
+                // At t = 0 and t = 1 the designs are copied, because summing the edges would
+                // introduce rounding.
                 _ if t == 0.0 => out.copy_from_slice(source),
                 _ if t == 1.0 => out.copy_from_slice(target),
                 Some(intrinsic) => intrinsic.write(t, out),

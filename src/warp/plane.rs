@@ -1,8 +1,8 @@
 //! Inverse warps of the whole plane, evaluated on a grid.
 //!
-//! A plane warp consists of two maps from the frame, one into each design. Each map returns
-//! the design point shown at a frame point, so that the frame is covered without gaps. The
-//! maps are evaluated at the corners of a grid and interpolated linearly in its triangles.
+//! A plane warp consists of two mappings from the frame, one into each design. Each mapping returns
+//! the design point shown at a frame point, so that the frame is covered without gaps. The mappings
+//! are evaluated at the corners of a grid and interpolated linearly in its triangles.
 
 use super::{MissedFeatures, Placement, Placer, Warp};
 use crate::geometry::{Bounds, DVec2};
@@ -28,8 +28,8 @@ pub trait PlaneWarp: Clone + Debug + Send + Sync + 'static {
         in_target: &mut [DVec2],
     );
 
-    /// Returns a summary of the features that the maps miss at t by more than their tolerance, or
-    /// `None` if there are none.
+    /// Returns a summary of the features that the mappings miss at t by more than their tolerance,
+    /// or `None` if there are none.
     fn missed_features(&self, _t: f64) -> Option<MissedFeatures> {
         None
     }

@@ -6,10 +6,10 @@
 //! features on straight lines would shrink it. The elastic warp works in rest coordinates, in which
 //! both designs are centred and rotated to the halfway angle.
 //!
-//! Guaranteed for plane warps: at t = 0 the map to the source is exactly the identity; at t = 1 the
-//! map to the target is. Exchanging the designs reverses the motion up to rounding, except that a
-//! rotation by π is counter-clockwise in both directions. Features that differ by a rigid motion
-//! move rigidly.
+//! Guaranteed for plane warps: at t = 0 the mapping to the source is exactly the identity; at t = 1
+//! the mapping to the target is. Exchanging the designs reverses the motion up to rounding, except
+//! that a rotation by π is counter-clockwise in both directions. Features that differ by a rigid
+//! motion move rigidly.
 
 use super::rigid_motion::{CommonRigidMotion, conjugate};
 use super::{MissedFeatures, Placement, Placer, PlaneWarp, Warp};
@@ -22,7 +22,8 @@ use std::sync::Arc;
 pub struct RigidElasticPlaneWarp<W> {
     rigid: CommonRigidMotion,
     elastic: W,
-    /// Points of the current frame in rest coordinates; the memory is reused.
+    /// Points of the most recent look-up in rest coordinates, in which both designs are centred and
+    /// rotated to the halfway angle; the memory is reused.
     rest: Vec<DVec2>,
 }
 
@@ -83,7 +84,8 @@ impl<W: PlaneWarp> PlaneWarp for RigidElasticPlaneWarp<W> {
         for (places, from_rest) in looks.into_iter().zip(self.rigid.maps_from_rest()) {
             places.iter_mut().for_each(|p| *p = from_rest(*p));
         }
-        // The ends are copied to avoid the rounding of the two rotations.
+        // At t = 0 and t = 1 one of the mappings is the identity; copying avoids the rounding of
+        // the two rotations.
         if t == 0.0 {
             in_source.copy_from_slice(frame);
         }
@@ -100,7 +102,8 @@ impl<W: PlaneWarp> PlaneWarp for RigidElasticPlaneWarp<W> {
     }
 }
 
-/// A mesh warp built in rest coordinates and composed with a rigid motion.
+/// A mesh warp built in rest coordinates (in which both designs are centred and rotated to the
+/// halfway angle) and composed with a rigid motion.
 ///
 /// It is suitable for warps in which each vertex shows the same point of a design at every t, such
 /// as [`super::Arap`].

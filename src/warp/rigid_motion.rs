@@ -1,13 +1,13 @@
 //! The rigid motion common to all features, split off before a plane warp is built.
 //!
-//! The motion moves the centroid of the source features to that of the target features and rotates
-//! them about that centroid, such that the moved source features fit the target features best in
+//! The motion translates the source features such that their centroid lies at the centroid of the
+//! target features. It rotates them about this point such that they fit the target features best in
 //! the least-squares sense (two-dimensional Procrustes problem). The remaining, elastic
 //! displacement is expressed "at rest": in coordinates in which both designs are centred and
 //! rotated to the halfway angle.
 //!
-//! Guaranteed: exchanging the designs inverts the motion up to rounding, except that a rotation
-//! by π is counter-clockwise in both directions.
+//! Guaranteed: exchanging the designs inverts the motion up to rounding, except that a rotation by
+//! π is counter-clockwise in both directions.
 
 use crate::correspondence::{LinePair, PointPair, RegionMatch};
 use crate::geometry::{Bounds, DVec2};
@@ -170,7 +170,7 @@ impl CommonRigidMotion {
         swept
     }
 
-    /// Returns the maps from rest coordinates to the source and to the target.
+    /// Returns the mappings from rest coordinates to the source and to the target.
     pub(super) fn maps_from_rest(&self) -> [impl Fn(DVec2) -> DVec2; 2] {
         let half = DVec2::from_angle(0.5 * self.turn);
         let [source, target] = self.centres;

@@ -2,18 +2,18 @@
 //!
 //! Ruprecht, Müller, "Image warping with scattered data interpolation" (1995); thin plates after
 //! Duchon (1977) and Bookstein, "Principal warps" (1989). At time t, a feature with position p in
-//! the source and q in the target lies at (1−t) p + t q. Two maps lead from there to the source and
-//! to the target. Each map adds an affine function and Σ cᵢ φ(|x − xᵢ|) to the identity, where φ is
-//! a radial function and xᵢ are the feature positions at t (centres), such that every feature is
-//! mapped to its position in the design. Both maps have the same centres, so a frame needs one
-//! factorisation.
+//! the source and q in the target lies at (1−t) p + t q. Two mappings lead from there to the source
+//! and to the target. Each mapping adds an affine function and Σ cᵢ φ(|x − xᵢ|) to the identity,
+//! where φ is a radial function and xᵢ are the feature positions at t (centres), such that every
+//! feature is mapped to its position in the design. Both mappings have the same centres, so one
+//! factorisation per t suffices.
 //!
-//! Guaranteed: evaluating a frame cannot fail. At t = 0 the map to the source is exactly the
-//! identity; at t = 1 the map to the target is. Without smoothing, every feature is mapped to its
+//! Guaranteed: evaluation cannot fail. At t = 0 the mapping to the source is exactly the identity;
+//! at t = 1 the mapping to the target is. Without smoothing, every feature is mapped to its
 //! position, unless two features are so close together that this would require a slope above 20. In
 //! that case their displacements approach each other, continuously in t, and agree when the
-//! features meet (`centres`). Exchanging the designs reverses the motion. Without features the map
-//! is the identity, with one feature a translation, and with two a similarity.
+//! features meet (`centres`). Exchanging the designs reverses the motion. Without features the
+//! mapping is the identity, with one feature a translation, and with two a similarity.
 //!
 //! Not guaranteed: absence of folds; [`super::Lattice`] guarantees that.
 //!

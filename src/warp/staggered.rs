@@ -1,10 +1,10 @@
-//! Rigid interpolation in which each connected part has its own timing.
+//! Rigidity-preserving interpolation in which each connected part has its own timing.
 //!
-//! The [`PartClock`] of a part maps the frame time t to another time, and the part is shown at its
-//! position in the unstaggered interpolation at that time. Each part thus follows its usual path
-//! and only starts later or arrives earlier; the ends of the motion are unchanged. Parts share no
-//! vertices, so a frame still takes a single solve, however many clocks there are. An anchor vertex
-//! moves on its straight path according to the clock of its part.
+//! The [`PartClock`] of a part maps the transition time t to another time, and the part is shown at
+//! its position in the unstaggered interpolation at that time. Each part thus follows its usual
+//! path and only starts later or arrives earlier; the ends of the motion are unchanged. Parts share
+//! no vertices, so evaluation at one t still takes a single solve, however many clocks there are.
+//! An anchor vertex moves on its straight path according to the clock of its part.
 
 use super::{Arap, Placer, Warp};
 use crate::time::{EasingFunction, NamedEasing};
@@ -32,8 +32,8 @@ impl PartClock {
         easing: EasingFunction::Named(NamedEasing::Linear),
     };
 
-    /// Returns the time at which the part is evaluated in the frame at `t`; exactly 0 for t = 0 and
-    /// exactly 1 for t = 1.
+    /// Returns the time at which the part is evaluated at the transition time `t`; exactly 0 for
+    /// t = 0 and exactly 1 for t = 1.
     ///
     /// ```
     /// use morphospace::time::NamedEasing;
@@ -50,7 +50,7 @@ impl PartClock {
         self.easing.apply(share)
     }
 
-    /// Returns the frame time at which the part reaches `time` in [0, 1], the inverse of
+    /// Returns the transition time at which the part reaches `time` in [0, 1], the inverse of
     /// [`Self::part_time`].
     pub(crate) fn transition_time(&self, time: f64) -> f64 {
         self.from + (self.to - self.from) * self.easing.inverse(time)
@@ -67,7 +67,7 @@ impl PartClock {
     }
 }
 
-/// Rigid interpolation with one clock per connected part.
+/// Rigidity-preserving interpolation with one clock per connected part.
 #[derive(Clone, Debug)]
 pub struct StaggeredArap {
     arap: Arap,
@@ -162,7 +162,8 @@ impl Warp for StaggeredArap {
                 .into_iter()
                 .flat_map(|window| [window.from, window.to]);
             let part_times = window_ends.chain(self.arap.guard_times().iter().copied());
-            // A break time of the part occurs in the frame in which the part's clock reaches it.
+            // A break time of the part occurs at the transition time at which the part's clock
+            // reaches it.
             let when = move |time: f64| clock.transition_time(time);
             [clock.from, clock.to]
                 .into_iter()

@@ -37,8 +37,8 @@ impl WorkloadKind {
             // Matching a coastline with a square takes 2.5 s with 2,000 points and 4.0 s with 5,000
             // (`check coast.json square.json`).
             Self::Points => 12_000,
-            // A draft transition takes 2.9 s with 300 pieces per design, 4.9 s with 600, 23 s with
-            // 2,000.
+            // A draft transition takes 2.9 s with 300 outer outlines per design, 4.9 s with 600, 23
+            // s with 2,000.
             Self::Pieces => 1_500,
             // A draft transition takes 1.3 s with 100 holes per design and 7.8 s with 200.
             Self::Holes => 300,

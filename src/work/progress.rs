@@ -231,15 +231,16 @@ impl Progress for ProgressSpan<'_> {
     }
 }
 
-/// Progress of a computation in equal parts, which may run in any order or in parallel.
+/// Progress of a computation that consists of equally weighted tasks, which may run in any order or
+/// in parallel.
 ///
-/// The fraction reported for the whole is the mean of the parts' fractions.
+/// The fraction reported for the whole is the mean of the tasks' fractions.
 pub struct ProgressShares<'a> {
     inner: &'a dyn Progress,
     parts: Vec<MonotoneFraction>,
 }
 
-/// Progress of one part of [`ProgressShares`].
+/// Progress of one task of [`ProgressShares`].
 #[derive(Clone, Copy)]
 pub struct ProgressShare<'a> {
     all: &'a ProgressShares<'a>,
@@ -247,7 +248,7 @@ pub struct ProgressShare<'a> {
 }
 
 impl<'a> ProgressShares<'a> {
-    /// Creates the given number of parts, all at 0.
+    /// Creates the given number of tasks, all at the fraction 0.
     pub fn new(inner: &'a dyn Progress, parts: usize) -> Self {
         let parts = std::iter::repeat_with(MonotoneFraction::default).take(parts);
         Self {
@@ -256,7 +257,7 @@ impl<'a> ProgressShares<'a> {
         }
     }
 
-    /// Returns the progress of the part with this index.
+    /// Returns the progress of the task with this index.
     ///
     /// ```
     /// use morphospace::work::progress::{Progress, ProgressShares, Silent};

@@ -1,7 +1,7 @@
 //! Measures the film on the stage in the background and checks it for defects.
 //!
 //! A new transition cancels the work on the previous one. Nothing is measured while a transition is
-//! being built, as during a drag.
+//! being built, for example while the user drags a slider.
 
 use std::time::Duration;
 
@@ -37,7 +37,7 @@ pub struct FilmMeasures {
     pub verdict: Verdict,
 }
 
-/// Measures of the transition on the stage.
+/// Measures of the transition on the stage, and the background job that computes them.
 #[derive(Resource, Debug, Default)]
 pub struct StageMeasures {
     transition: Option<Transition>,
@@ -141,7 +141,8 @@ fn measure_film(
 
 /// Starts measuring a new transition and collects results.
 pub fn follow(session: Res<Session>, mut stage_measures: ResMut<StageMeasures>) {
-    // Change detection is set by hand: this system runs each frame but seldom changes anything.
+    // This system runs in every screen update but seldom changes the resource. It bypasses Bevy's
+    // change detection and reports changes itself.
     let now = stage_measures.bypass_change_detection();
     let was_busy = now.is_busy();
     let is_taken = now.collect_result();

@@ -1,5 +1,6 @@
-//! Method search: builds rigid parts, fields carried by rigid parts, and the plain field blend in
-//! the background, and uses the method whose film has the fewest defects.
+//! Method search: builds the film by each of three methods in the background, and uses the method
+//! whose film has the fewest defects. The methods are rigid parts, distance fields carried by rigid
+//! parts, and the plain blend of distance fields.
 
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
@@ -13,8 +14,7 @@ use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::TransitionMethod;
 use crate::work::progress::{OverallProgress, Progress};
 
-/// The chosen method and the rating of its film; the rating is `None` for a film that blends
-/// pictures.
+/// The chosen method and the rating of its film. The rating is `None` for films of pictures.
 type MethodChoice = (TransitionMethod, Option<FilmRating>);
 
 /// The running method search; `None` while no search is running.
@@ -42,7 +42,7 @@ impl MethodSearch {
         self.0 = None;
     }
 
-    /// Starts a search for the current segment.
+    /// Starts a search for the best method for the segment on the stage.
     fn start(&mut self, session: &Session) {
         let Some(staged) = session.staged_segment() else {
             return;
@@ -89,7 +89,8 @@ pub fn apply(
     mut notices: ResMut<Notices>,
     gesture: Res<Gesture>,
 ) {
-    // Change detection is set by hand: this system runs each frame but seldom changes anything.
+    // This system runs in every screen update but seldom changes the resource. It bypasses Bevy's
+    // change detection and reports changes itself.
     let search = method_search.bypass_change_detection();
     let was_busy = search.visible_progress().is_some();
     for intent in intents.read() {

@@ -1,9 +1,9 @@
 //! Records the transition on the stage and checks its film at every t for folded faces and crossing
 //! outlines, in the background.
 //!
-//! The transition can be played at once. When its recording is ready, the same frames are read from
-//! memory, and nothing changes on screen. The recording is then checked at every t, not only at
-//! samples; the result of this proof appears below the stage.
+//! The transition can be played at once. When its recording is ready, playback reads the recording
+//! instead of computing each in-between, without a visible change. The recording is then checked at
+//! every t, not only at samples; the result of this proof appears below the stage.
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
@@ -15,8 +15,7 @@ use crate::app::session::state::Session;
 use crate::recording::{RecordingError, RecordingOptions};
 use crate::transition::{Transition, TransitionProof};
 
-/// The recording and the proof (the check at every t) in progress, or their result for the
-/// transition on the stage.
+/// Recording and proof of the transition on the stage: the job in progress, or its result.
 #[derive(Resource, Debug, Default)]
 pub struct StageRecording {
     options: RecordingOptions,
@@ -81,8 +80,8 @@ impl StageRecording {
         }
     }
 
-    /// Restores the proof of a transition that is on the stage again; returns whether there was
-    /// one.
+    /// Restores the cached proof of a transition that is on the stage again; returns whether the
+    /// cache contained one.
     fn restore_proof(&mut self) -> bool {
         self.proof = self
             .transition
@@ -94,7 +93,8 @@ impl StageRecording {
 
 /// Records every new transition on the stage; a recording of the previous one is cancelled.
 pub fn follow(session: Res<Session>, mut recording: ResMut<StageRecording>) {
-    // Change detection is set by hand: this system runs each frame but seldom changes anything.
+    // This system runs in every screen update but seldom changes the resource. It bypasses Bevy's
+    // change detection and reports changes itself.
     let now = recording.bypass_change_detection();
     if session.is_changed() && !is_same(now.transition.as_ref(), session.transition()) {
         now.cache_proof();
@@ -109,14 +109,15 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<StageRecording>) {
             BackgroundJob::start("the recording", move |progress| {
                 let recorded = transition.record(&options, progress);
                 let proved = recorded.and_then(|_| transition.prove(&options, progress));
-                // The memory of the previous transition has been freed by now.
+                // By now the previous transition has been dropped, so its memory can be returned to
+                // the system.
                 return_free_memory();
                 proved
             })
         });
     }
     if let Some(answer) = BackgroundJob::take_result(&mut now.job) {
-        // The reason for a missing recording is shown next to the frame times.
+        // If the transition could not be recorded, the reason is shown next to the drawing times.
         (now.proof, now.error) = match answer {
             Ok(proved) => (proved, None),
             Err(JobError::Failed(error)) => (None, Some(error)),

@@ -1,8 +1,8 @@
-//! Suggestions: when the film has defects, tries changes that may help in the background and offers
-//! those that do.
+//! Suggestions: when the film has defects, tries changes of the settings in the background and
+//! offers those that reduce the defects.
 //!
-//! Each change is built and rated exactly as the film on the stage is. Only changes with fewer
-//! defects are offered, together with the defects that remain.
+//! The film of each change is built and rated exactly as the film on the stage is. A suggestion is
+//! offered together with the defects that remain.
 
 use std::cmp::Ordering;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -26,20 +26,21 @@ use crate::transition::{BuildError, DesignFit, Transition, TransitionMethod};
 use crate::warp::WarpKind;
 use crate::work::progress::{Progress, check_cancelled};
 
-/// Time without changes before suggestions are searched, so that nothing is tried during a drag
-/// (heuristic).
+/// Time from the discovery of defects to the start of the search, so that nothing is tried during a
+/// drag (heuristic).
 const SEARCH_DELAY: Duration = Duration::from_millis(800);
 
 /// Maximum number of suggestions (heuristic: they share one line).
 const MAX_SUGGESTIONS: usize = 3;
 
-/// Maximum overshoot (excess turning and change of area, as a fraction) that a suggestion may add
-/// to the film. Without this limit, a change that lets all parts appear and disappear would be
-/// offered, although hardly anything of the designs is visible halfway (heuristic).
+/// Maximum overshoot that a suggestion may add to the film. Overshoot is the turning of outlines
+/// plus the change of area beyond those that the two designs require, both as fractions. Without
+/// this limit, a change that lets all parts appear and disappear would be offered, although hardly
+/// anything of the designs is visible halfway (heuristic).
 const MAX_ADDED_OVERSHOOT: f64 = 0.2;
 
-/// Value added to the overshoot of a suggestion that mirrors or rotates the target, so that it is
-/// ranked below similar suggestions that keep the target as drawn (heuristic).
+/// Value added to the overshoot of a suggestion that mirrors or rotates the target. It ranks the
+/// suggestion below similar ones that keep the target as drawn (heuristic).
 const CHANGED_TARGET_PENALTY: f64 = 0.25;
 
 /// A change of the settings that may remove defects.
@@ -49,7 +50,7 @@ pub enum SuggestedChange {
     Mirror,
     /// Rotate the target counter-clockwise by this angle, in degrees.
     Turn(i32),
-    /// Use another placement of the designs relative to each other.
+    /// Align the designs with each other by another rule.
     Fit(DesignFit),
     /// Use another rule for unmatched holes.
     Holes(HoleRule),
@@ -147,7 +148,8 @@ impl SuggestedChange {
 }
 
 impl Suggestion {
-    /// Whether the film has fewer defects than the current one, without much more overshoot.
+    /// Whether the film of this suggestion has fewer defects than the film on the stage, whose
+    /// rating is `now`, without much more overshoot.
     fn helps(&self, now: &FilmRating) -> bool {
         let is_within_limit = self.rating.overshoot() <= now.overshoot() + MAX_ADDED_OVERSHOOT;
         self.rating.has_fewer_defects_than(now) && is_within_limit
@@ -192,7 +194,7 @@ struct SuggestionJob {
 }
 
 impl Suggestions {
-    /// The best suggestions found so far, the best one first.
+    /// Suggestions found so far, the best one first; at most `MAX_SUGGESTIONS`.
     #[must_use]
     pub fn suggestions(&self) -> &[Suggestion] {
         &self.suggestions[..self.suggestions.len().min(MAX_SUGGESTIONS)]
@@ -249,7 +251,7 @@ impl Suggestions {
         });
     }
 
-    /// Collects new suggestions; returns whether there are any or the search has ended.
+    /// Collects new suggestions; returns whether a suggestion has arrived or the search has ended.
     fn collect_results(&mut self) -> bool {
         let Some(search) = &self.search else {
             return false;
@@ -280,8 +282,9 @@ fn rating(transition: &Transition, film: &FilmReport) -> Option<FilmRating> {
     (content != ContentKind::Colours).then(|| FilmRating::of_report(film, content))
 }
 
-/// Builds and rates the film of each change and sends those that help; stops early when enough
-/// films are flawless.
+/// Builds and rates the film of each change. Sends a suggestion for each change that has fewer
+/// defects than `now`, the rating of the film on the stage, without much more overshoot. Stops
+/// early when enough films are flawless.
 fn try_all(
     loaded: &LoadedProject,
     now: &FilmRating,
@@ -294,7 +297,7 @@ fn try_all(
         what.apply(&mut other.project);
         let built = Transition::build(&other.spec()?, progress);
         check_cancelled(progress).map_err(BuildError::from)?;
-        // A change that cannot be built is no suggestion.
+        // A change whose film cannot be built is not suggested.
         let Ok(built) = built else {
             continue;
         };
@@ -325,7 +328,8 @@ pub fn follow(
     measured: Res<StageMeasures>,
     mut suggestions: ResMut<Suggestions>,
 ) {
-    // Change detection is set by hand: this system runs each frame but seldom changes anything.
+    // This system runs in every screen update but seldom changes the resource. It bypasses Bevy's
+    // change detection and reports changes itself.
     let now = suggestions.bypass_change_detection();
     let was_busy = now.is_busy();
     let transition = session.transition();

@@ -61,7 +61,8 @@ mod tests {
         for _ in 0..3 {
             memo.insert(&transition(), ());
         }
-        // The last entry lost its transition after it was stored; the next insertion removes it.
+        // The last entry's transition was dropped after the entry was stored, so only the next
+        // insertion would remove the entry.
         assert_eq!(memo.0.len(), 1);
         assert!(memo.0[0].0.is_dropped());
     }

@@ -1,5 +1,5 @@
 //! Saves or copies the blend under the map's marker, while the map is shown in place of the stage.
-//! The export code draws it on the CPU, so no rendered frame is needed.
+//! The export code draws the blend on the CPU, without the renderer of the window.
 
 use bevy::prelude::{MessageReader, NonSendMut, Res, ResMut};
 

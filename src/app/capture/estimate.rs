@@ -15,11 +15,11 @@ use crate::app::session::state::Session;
 /// (heuristic).
 const QUIET_TIME: Duration = Duration::from_millis(500);
 
-/// Export preferences for which an estimate was made. A new estimate is made when they or the
-/// project change.
+/// Export preferences for which an estimate was made. A new estimate is made when the preferences
+/// or the project change.
 type EstimateKey = (FilmExportOptions, Option<FilmFileFormat>);
 
-/// Estimate for the current export settings; made only while they are shown.
+/// Estimate for the current export settings; made only while the settings are shown.
 #[derive(Resource, Debug, Default)]
 pub struct ExportEstimate {
     key: Option<EstimateKey>,
@@ -29,7 +29,7 @@ pub struct ExportEstimate {
 }
 
 impl ExportEstimate {
-    /// The estimate, once available.
+    /// Estimated duration and size of the export; `None` until the estimate is complete.
     #[must_use]
     pub fn cost(&self) -> Option<FilmCost> {
         self.cost
@@ -53,7 +53,7 @@ pub fn follow(
 ) {
     let is_open = preferences.film_options && preferences.panels;
     let key = is_open.then_some((preferences.film, preferences.record_format));
-    // This system runs each frame; only a new result marks the estimate as changed.
+    // This system runs in every screen update; only a new result marks the estimate as changed.
     let now = estimate.bypass_change_detection();
     if now.key != key || session.is_changed() {
         (now.job, now.cost) = (None, None);
@@ -61,8 +61,8 @@ pub fn follow(
         now.key = key;
     }
     let is_quiet = now.since.is_some_and(|since| since.elapsed() >= QUIET_TIME);
-    // No estimate runs during a build or an export: both would slow each other down and spoil the
-    // estimate.
+    // No estimate runs during a build or an export: the two would slow each other down, and the
+    // estimated duration would be wrong.
     if is_quiet && session.work().is_none() && exporter.work().is_none() {
         now.since = None;
         now.job = FilmRequest::new(&preferences, &session, &folder, &scratch).map(|request| {

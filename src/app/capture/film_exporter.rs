@@ -33,7 +33,7 @@ impl FilmExporter {
         self.job.as_ref().map(|job| ("Exporting", job.progress().1))
     }
 
-    /// Image of the frame being exported; `None` until the first image is drawn, and while no
+    /// Image of the film frame being exported; `None` until the first image is drawn, and while no
     /// export is running.
     #[must_use]
     pub fn preview(&self) -> Option<Arc<RgbaImage>> {

@@ -1,5 +1,5 @@
-//! Frame of the film to be exported: the section of the plane that it shows, drawn as a rectangle
-//! over the stage while the export settings are shown.
+//! Frame of the film to be exported: the rectangular section of the plane that the film shows. It
+//! is outlined on the stage while the export settings are shown.
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
@@ -9,11 +9,11 @@ use crate::export::{FilmSpec, FilmSpecError, PixelSizeError, PlaneView, framing}
 use crate::geometry::Bounds;
 use crate::transition::{Sequence, Timing, TimingError, TransitionStop};
 
-/// Frame of the film; `None` while the export settings are hidden or give no film.
+/// Frame of the film; `None` while the export settings are hidden or there is no film to export.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FilmFraming(pub Option<FilmFrameInfo>);
 
-/// Frame and length of a film.
+/// View of the plane, number of images and duration of a film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmFrameInfo {
     /// Mapping from the plane to the pixels of the film.

@@ -33,7 +33,7 @@ pub enum FilmExportError {
     /// The timing or the size gives no film.
     #[error(transparent)]
     Film(#[from] FilmFramingError),
-    /// The section used for the estimate is not part of the film.
+    /// The film has no frames in the range that the estimate would export.
     #[error(transparent)]
     Section(#[from] FilmSpecError),
     /// The output file could not be created.
@@ -42,13 +42,13 @@ pub enum FilmExportError {
     /// The file type cannot hold a film.
     #[error(transparent)]
     Target(#[from] ExportTargetError),
-    /// The sheet's width or height in pixels is out of range.
+    /// The comparison sheet's width or height in pixels is out of range.
     #[error(transparent)]
     Size(#[from] PixelSizeError),
     /// The settings do not fit the designs.
     #[error(transparent)]
     Project(#[from] ProjectError),
-    /// The scratch folder could not be created.
+    /// The temporary folder for the unfinished export could not be created.
     #[error(transparent)]
     ScratchFolder(#[from] std::io::Error),
     /// Writing failed.
@@ -71,7 +71,7 @@ impl From<ExportError> for FilmExportError {
     }
 }
 
-/// Number of frames per method on a comparison sheet (heuristic).
+/// Number of in-betweens per method on a comparison sheet (heuristic).
 const SHEET_COLUMNS: usize = 7;
 
 /// Number of frames exported to estimate the duration and size of an export (heuristic).
@@ -88,7 +88,7 @@ const PREVIEW_EVERY: Duration = Duration::from_millis(400);
 pub struct FilmPreview(Arc<Mutex<Option<Arc<RgbaImage>>>>);
 
 impl FilmPreview {
-    /// The image; `None` until the first one is drawn.
+    /// Image of the film frame drawn last; `None` until the first image is drawn.
     #[must_use]
     pub fn get(&self) -> Option<Arc<RgbaImage>> {
         self.0
@@ -107,7 +107,7 @@ pub struct FilmCost {
     pub bytes: f64,
 }
 
-/// A film or sheet to export.
+/// A film or comparison sheet to export.
 #[derive(Clone, Debug)]
 pub struct FilmRequest {
     project: Project,
@@ -151,7 +151,7 @@ impl FilmRequest {
     /// Exports the film under a name that is not in use; returns its path.
     ///
     /// # Errors
-    /// The settings give no film, or the film cannot be written. In this case no part of it is
+    /// The settings give no film, or the film cannot be written. In this case no incomplete file is
     /// left.
     pub fn export(
         self,
@@ -222,7 +222,8 @@ impl FilmRequest {
         })
     }
 
-    /// Camera and film; a ping-pong film includes the way back, so that it can loop.
+    /// Returns the camera and the film to export. A ping-pong film includes the way back, so that a
+    /// player can repeat it without a jump.
     fn camera_and_film(&self) -> Result<(Camera, FilmSpec), FilmExportError> {
         let (style, stops) = (self.project.style, &self.project.stops);
         let timing = &self.project.timing;
@@ -242,10 +243,10 @@ impl FilmRequest {
         Ok((camera, film))
     }
 
-    /// Exports a comparison sheet: one row for each method that suits the pair.
+    /// Exports a comparison sheet: one row for each method that suits the pair of designs.
     ///
     /// # Errors
-    /// No method suits, or the sheet cannot be written.
+    /// No method suits the designs, or the sheet cannot be written.
     pub fn export_method_sheet(
         self,
         staged: &LoadedProject,
@@ -253,8 +254,8 @@ impl FilmRequest {
     ) -> Result<PathBuf, FilmExportError> {
         check_writable(&self.folder)?;
         let rows = MethodRow::all(&staged.spec()?, progress)?;
-        // The frames on the sheet span t from 0 to 1 for a single segment, and the film's range of
-        // t for a whole project.
+        // The in-betweens on the sheet span t from 0 to 1 for a single segment, and the film's
+        // range of t for a whole project.
         let timing = &staged.project.timing;
         let times = if staged.is_segment() {
             even_times(0.0, 1.0, SHEET_COLUMNS)
@@ -270,11 +271,12 @@ impl FilmRequest {
     }
 }
 
-/// Returns the index of the first of the [`TRIAL_FRAMES`] trial frames; 0 if there are none.
+/// Returns the index of the first image of the film that is exported for the estimate.
 ///
-/// Trial frames are consecutive frames, and t changes from each to the next. Among all sections of
-/// the film with this property, the one is chosen whose mean speed is closest to that of the film
-/// without its pauses, because pauses and fast sections would not be representative.
+/// The estimate exports [`TRIAL_FRAMES`] consecutive images, during which t never pauses. If
+/// several sections of the film qualify, the one is chosen whose mean speed is closest to that of
+/// the film without its pauses, because fast sections would not be representative. The index is 0
+/// if no section qualifies.
 fn typical_start(times: &[f64]) -> usize {
     let moves: Vec<f64> = times
         .windows(2)

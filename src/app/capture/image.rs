@@ -58,7 +58,7 @@ pub enum SaveImageError {
     },
 }
 
-/// Requests an image of the stage or the window.
+/// Requests images of the stage or of the window from the renderer when the user asks for them.
 pub fn request_images(
     mut intents: MessageReader<Intent>,
     mut captures: ResMut<ImageCaptures>,
@@ -68,7 +68,8 @@ pub fn request_images(
     text_selected: Res<TextSelected>,
 ) {
     for intent in intents.read() {
-        // Named now, because the image arrives some frames later, when t has moved on.
+        // The file is named now, because the image arrives some screen updates later, when t may
+        // have changed.
         let name = format!("{}-t{:.3}", inputs.session.file_stem(), inputs.playback.t());
         let destination = match intent {
             Intent::Screenshot { with_panels: true } => {
@@ -77,7 +78,7 @@ pub fn request_images(
                     .observe(window_captured(name));
                 continue;
             }
-            // The map's blend is handled by `blend_image`.
+            // While the map is shown, `blend_image` handles this intent.
             _ if inputs.map.is_shown => continue,
             Intent::Screenshot { with_panels: false } => ImageDestination::File(name),
             Intent::CopyImage if !text_selected.0 => ImageDestination::Clipboard,
@@ -113,7 +114,7 @@ pub fn size_px(view: &StageView, scale_factor: f32, scale: ImageScale) -> UVec2 
     (on_screen * factor).round().as_uvec2().max(UVec2::ONE)
 }
 
-/// Observer that saves an image of the window.
+/// Returns an observer that saves the captured image of the window under this name.
 fn window_captured(
     name: String,
 ) -> impl FnMut(On<ScreenshotCaptured>, ResMut<ImageCaptures>, ResMut<Notices>, Res<CaptureFolder>)
@@ -133,7 +134,7 @@ fn window_captured(
 }
 
 impl ImageCaptures {
-    /// Whether an image is still being rendered, for which the window must draw frames.
+    /// Whether an image is still being rendered. Until then, the window must keep redrawing.
     pub fn is_rendering(&self) -> bool {
         !self.awaited.is_empty()
     }

@@ -21,8 +21,8 @@ pub struct StageImageInputs<'w, 's> {
     pub preferences: Res<'w, Preferences>,
     /// The map, which is saved in place of the stage while it is shown.
     pub map: Res<'w, MapView>,
-    /// Visible part of the plane.
+    /// Visible section of the plane.
     pub view: Res<'w, StageView>,
-    /// The main window, whose scale factor gives the number of pixels per point.
+    /// The main window, whose scale factor is the number of physical pixels per logical pixel.
     pub window: Single<'w, 's, &'static Window, With<PrimaryWindow>>,
 }

@@ -1,8 +1,8 @@
 //! Comparison: the same designs at the same t by a second method, shown to the right of the stage.
 //!
 //! The second transition is an entity on a separate render layer, seen by a separate camera. It is
-//! built in the background with the same settings except for the method; if the stage already uses
-//! that method, its transition is shared.
+//! built in the background with the same settings except for the method. If the stage already uses
+//! that method, the comparison shows the transition of the stage.
 
 use bevy::prelude::{
     Component, DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource,
@@ -18,7 +18,7 @@ use crate::transition::{Transition, TransitionMethod};
 use crate::warp::homotopy::Homotopy;
 use crate::work::progress::Progress;
 
-/// The comparison and the work on it.
+/// The comparison: its settings, its transition, and the job that builds the transition.
 #[derive(Resource, Debug, Default)]
 pub struct Comparison {
     /// Whether the comparison is shown.
@@ -140,8 +140,8 @@ pub fn follow(session: Res<Session>, mut comparison: ResMut<Comparison>) {
     let now = comparison.bypass_change_detection();
     let has_result = now.collect_result();
     if !now.is_shown {
-        // The comparison is discarded only once: discarding it in each frame would report a change
-        // in each frame.
+        // The comparison is discarded only once; otherwise every screen update would report a
+        // change.
         if now.settings.is_some() {
             now.discard();
             comparison.set_changed();
@@ -157,13 +157,14 @@ pub fn follow(session: Res<Session>, mut comparison: ResMut<Comparison>) {
     }
 }
 
-/// Changes the settings of a project to those of this method.
+/// Changes the settings of a project so that the project uses the method `method`.
 fn set_method(method: ComparisonMethod, project: &mut Project) {
     let cell = method.method();
     (project.warp, project.content) = (Some(cell.warp()), Some(cell.content()));
     match method {
         ComparisonMethod::Straight => {
-            // With linear local maps, all vertices of the ARAP solution move along straight lines.
+            // With the linear homotopy, all vertices of the ARAP solution move along straight
+            // lines.
             project.options.arap.homotopy = Homotopy::Linear;
             project.options.arap.extra_turns.clear();
         }

@@ -53,7 +53,7 @@ pub fn apply(
             let is_free = session
                 .project()
                 .is_some_and(|p| p.content != Some(ContentKind::Solid));
-            // The last tool used may not exist for this content.
+            // The tool used last may not exist for the content of this film.
             if editor.tool == EditorTool::Parts && is_free
                 || editor.tool == EditorTool::Lines && !is_free
             {
@@ -68,8 +68,8 @@ pub fn apply(
     }
 }
 
-/// Switches from a method without a warp, where nothing is matched, to rigid parts for outlines or
-/// to scattered points for pictures.
+/// Selects a method with a warp if the current one has none, because without a warp nothing is
+/// matched: the ARAP warp for outlines, or the scattered-points warp for pictures.
 fn ensure_warp(project: &mut Project) {
     if project.warp == Some(WarpKind::None) {
         let (warp, content) = match project.content {
@@ -151,7 +151,7 @@ impl MatchEditor {
             Some(EditorHandle::Pin(k)) => EditorGrab::Pin(k),
             Some(EditorHandle::Line(k, end)) => EditorGrab::Line(k, end),
             Some(EditorHandle::Feature(k)) => EditorGrab::Feature(k),
-            // `handle_at` returns indices into the cuts of this sheet, so this one exists.
+            // `handle_at` returns indices into the cuts of this sheet, so this cut exists.
             Some(EditorHandle::Cut(k, end)) => match sheet.cuts[k].requested_index {
                 Some(requested) => EditorGrab::Cut(requested, end),
                 None => EditorGrab::AutomaticCut(k, end),
@@ -212,12 +212,12 @@ impl MatchEditor {
                     }
                 }
             }
-            // These cannot occur, because `make_explicit` has converted them.
+            // These variants cannot occur, because `make_explicit` has converted them.
             EditorGrab::Feature(_) | EditorGrab::AutomaticCut(..) | EditorGrab::NewLine(_) => {}
         }
     }
 
-    /// Selects a handle, or applies the tool to empty space.
+    /// Selects the handle under the pointer or, if there is none, applies the tool at the pointer.
     fn click(&mut self, touch: EditorPointer, sheet: &MatchSheet, matching: &mut MatchSettings) {
         self.refusal = None;
         match (sheet.handle_at(touch), self.tool) {
@@ -228,8 +228,8 @@ impl MatchEditor {
         }
     }
 
-    /// Adds a pin at the pointer and its matched point; on a part without a match, selects the part
-    /// for pairing.
+    /// Adds a pin between the point at the pointer and its matched point in the other design; on a
+    /// part without a match, selects the part for pairing.
     fn add_pin(&mut self, touch: EditorPointer, sheet: &MatchSheet, matching: &mut MatchSettings) {
         self.selected = None;
         let is_near = sheet
@@ -257,7 +257,8 @@ impl MatchEditor {
         self.selected = Some(EditorHandle::Pin(matching.pins.len() - 1));
     }
 
-    /// Selects a part for pairing, if the design has several and there is nothing to pin.
+    /// Selects the part under the pointer for pairing; does nothing if there is no part, or if the
+    /// match has only one piece.
     fn start_pairing(
         &mut self,
         touch: EditorPointer,
@@ -356,8 +357,8 @@ fn make_explicit(grab: EditorGrab, sheet: &MatchSheet, matching: &mut MatchSetti
     }
 }
 
-/// Warps of the plane use no automatic pins once the user sets a pin or line. So the automatic pins
-/// are added to the project before the user's first change.
+/// Adds the automatic pins to the project before the user's first change. Without this, the change
+/// would remove them: warps of the plane use automatic pins only until the user sets a pin or line.
 fn adopt_automatic_pins(sheet: &MatchSheet, matching: &mut MatchSettings) {
     if sheet.has_free_pins() && matching.pins.is_empty() && matching.lines.is_empty() {
         let automatic = sheet.features.iter().map(|pair| sheet.to_designs(pair));
@@ -412,17 +413,18 @@ impl MatchSheet {
         part.is_some() && unmatched.any(is_of_part)
     }
 
-    /// Converts a point from the frame to a design's own coordinates.
+    /// Converts a point from frame coordinates to a design's own coordinates.
     fn to_design(&self, side: Side, p: DVec2) -> DVec2 {
         self.frame_from_design[side].inverse().apply(p)
     }
 
-    /// Converts a pair of points from the frame to the designs' own coordinates.
+    /// Converts a pair of points from frame coordinates to the designs' own coordinates.
     fn to_designs(&self, pair: &PointPair) -> PointPair {
         SourceTarget::from_fn(|side| self.to_design(side, pair[side]))
     }
 
-    /// Converts the point of a pair in one design from that design's own coordinates to the frame.
+    /// Converts the point of a pair in one design from that design's own coordinates to frame
+    /// coordinates.
     fn to_frame(&self, pair: &PointPair, side: Side) -> DVec2 {
         self.frame_from_design[side].apply(pair[side])
     }

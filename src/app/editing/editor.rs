@@ -7,7 +7,7 @@ use crate::app::editing::panes::EditorPanes;
 use crate::app::input::editor_action::EditorTool;
 use crate::geometry::{DVec2, Side};
 
-/// Something that the user can select or drag.
+/// Handle in the match editor: a point that the user can select or drag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EditorHandle {
     /// A pin, by its index in the project.
@@ -44,7 +44,8 @@ pub enum EditorGrab {
     Line(usize, usize),
     /// A new line that starts at this point; created in the project when the pointer moves.
     NewLine(DVec2),
-    /// The second end of a new line, in both designs at once, by the line's index in the project.
+    /// The second end of a new line, which moves in both designs at once; contains the line's index
+    /// in the project.
     NewLineEnd(usize),
     /// The view of a pane.
     View,

@@ -88,8 +88,8 @@ impl EditorPanes {
         }
     }
 
-    /// Zooms a pane, or all if they are linked, about a point in logical pixels from its centre, y
-    /// down.
+    /// Zooms a pane, or all panes if they are linked. The content at the point `at` stays in place;
+    /// `at` is measured in logical pixels from the centre of the pane, y down.
     pub fn zoom_at(&mut self, pane: EditorPane, at: Vec2, factor: f32) {
         for view in self.moved(pane) {
             view.zoom_at(at, factor);

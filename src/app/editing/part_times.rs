@@ -1,4 +1,5 @@
-//! Edits the time windows of parts, the intervals of the film in which they move, piece by piece.
+//! Edits the time windows of pieces. A time window is the interval of the film in which a part
+//! moves.
 //!
 //! A piece is a part of the source matched with a part of the target, or an unmatched part. A part
 //! that splits belongs to several pieces. The project identifies a part by a point of one design.
@@ -147,8 +148,9 @@ fn identifying_side(sheet: &MatchSheet, piece: usize) -> Side {
     identifying.unwrap_or(Side::Source)
 }
 
-/// For each time window, the pieces to which it applies: all pieces of the topmost part that
-/// contains the point of the time window or, if no part contains this point, of the nearest part.
+/// For each time window, the pieces to which it applies. The project stores a time window with a
+/// point of one design. The window applies to all pieces of the topmost part that contains this
+/// point or, if no part contains it, of the nearest part.
 fn pieces_of_times(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Vec<usize>> {
     let mut rings_of_piece: Vec<Vec<&SheetRing>> = vec![Vec::new(); sheet.pieces.len()];
     for ring in &sheet.rings {
@@ -246,7 +248,7 @@ mod tests {
         let mut time = part_time_of_piece(&sheet, 0, LATE).expect("a piece");
         time.side = Side::Source;
         assert_eq!(time_of_pieces(&sheet, &[time]), [Some(0), Some(0), None]);
-        // The other half keeps the window that was set for both.
+        // The other half keeps the time window that was set for both halves.
         let mut times = vec![time];
         set_part_time(&sheet, &mut times, 1, PartClock::WHOLE);
         assert_eq!(time_of_pieces(&sheet, &times), [Some(0), None, None]);

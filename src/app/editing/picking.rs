@@ -7,7 +7,7 @@ use crate::correspondence::RingCut;
 use crate::geometry::{DVec2, Side, SourceTarget};
 
 impl MatchSheet {
-    /// Position of a handle in one design; `None` if it exists only in the other.
+    /// Position of a handle in one design; `None` if the handle exists only in the other design.
     #[must_use]
     pub fn handle_position(&self, handle: EditorHandle, side: Side) -> Option<DVec2> {
         match handle {
@@ -60,7 +60,7 @@ impl MatchSheet {
                 .distance(touch.position);
             (distance <= touch.pick_radius).then_some((distance, handle))
         });
-        // Of equals, `min_by` returns the first, which is topmost.
+        // Of handles at the same distance, `min_by` returns the first, which is topmost.
         in_reach
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, handle)| handle)

@@ -24,7 +24,7 @@ pub struct NearestRingPoint {
     pub distance: f64,
 }
 
-/// Returns the point on any of the rings nearest to `p`; `None` if there are no edges.
+/// Returns the point nearest to `p` on any of the rings; `None` if there are no edges.
 pub fn nearest<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> Option<NearestRingPoint> {
     let mut best: Option<NearestRingPoint> = None;
     for (ring, points) in rings.enumerate() {
@@ -99,7 +99,7 @@ pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2>
     widest(&[0.5, 0.4, 0.6, 0.25, 0.75]).or_else(|| widest(&dense_shares))
 }
 
-/// Returns the parts of `intervals` that lie outside the interval from `from` to `to`.
+/// Returns the sections of `intervals` that lie outside the interval from `from` to `to`.
 fn subtract(intervals: Vec<[f64; 2]>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let remainders = |[a, b]: [f64; 2]| [[a, b.min(from)], [a.max(to), b]];
     let remainders = intervals.into_iter().flat_map(remainders);
@@ -118,7 +118,7 @@ pub fn corners(points: &[DVec2]) -> Vec<DVec2> {
         .collect()
 }
 
-/// Angle from one direction to another, in (−π, π]; 0 if either is zero.
+/// Angle from one direction to another, in (−π, π]; 0 if either vector is zero.
 pub fn turning_angle(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }

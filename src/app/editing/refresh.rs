@@ -59,8 +59,8 @@ impl MatchSheet {
             faulty_pins: session
                 .problem()
                 .map_or_else(Vec::new, TransitionProblem::pins),
-            // The content is that of the newest settings, so that tools change with the method at
-            // once.
+            // The content comes from the newest settings, so that the tools change as soon as the
+            // user selects another method.
             content: project.content,
             ..Self::new(
                 [source, target],

@@ -15,9 +15,9 @@ use crate::design::{Design, DesignForm, Picture};
 use crate::geometry::{Bounds, DVec2, Side, Similarity};
 use crate::transition::PaintRule;
 
-/// Maximum distance, summed over both ends and as a fraction of the designs' size, between a cut
-/// that the user requested and an actual cut that counts as its result. The match may move a cut
-/// (heuristic).
+/// Maximum distance between a cut that the user requested and its result, because the match may
+/// move the cut. The distance is summed over both ends of the cut, as a fraction of the designs'
+/// size (heuristic).
 const CUT_SHIFT: f64 = 0.25;
 
 /// Both designs and their match, placed in the common frame.
@@ -51,7 +51,7 @@ pub struct MatchSheet {
     pub frame_from_design: [Similarity; 2],
 }
 
-/// One design on the sheet.
+/// One of the two designs on the match sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetSide {
     /// Parts of the design as they are matched, each an outline followed by its holes; later parts
@@ -98,7 +98,7 @@ pub struct SheetCut {
     pub cut: RingCut,
     /// The cut as the user requested it; `None` for an automatic cut.
     pub requested: Option<RingCut>,
-    /// Index of the project's cut that requested it; `None` for an automatic cut.
+    /// Index, in the project, of the cut that the user requested; `None` for an automatic cut.
     pub requested_index: Option<usize>,
 }
 
@@ -230,7 +230,7 @@ fn uppermost(parts: &[Vec<Vec<DVec2>>], p: DVec2) -> Option<usize> {
         .rposition(|rings| polyline::encloses(rings.iter().map(Vec::as_slice), p))
 }
 
-/// Lays out one design; `None` if it is not an outline.
+/// Places one design on the sheet; `None` if the design is not an outline.
 fn side(design: &Design, by: &Similarity, paint: PaintRule) -> Option<SheetSide> {
     let DesignForm::Outline(outline) = &design.form else {
         return None;

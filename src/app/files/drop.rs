@@ -57,7 +57,7 @@ fn natural_sort_key(name: &str) -> Vec<(String, u64)> {
 }
 
 /// Opens all files that were dropped together. The system sends one event per file, but all events
-/// before the next frame (`winit` on X11, Windows and macOS).
+/// arrive before the next screen update (`winit` on X11, Windows and macOS).
 pub fn read_drops(
     mut drops: MessageReader<FileDragAndDrop>,
     presentation: Res<Presentation>,

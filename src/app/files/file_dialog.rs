@@ -61,7 +61,7 @@ impl DialogPurpose {
     }
 }
 
-/// The open dialog, if any; at most one.
+/// The file dialog: its purpose while it is open, and the folder that it shows.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileDialogRequest {
     purpose: Option<DialogPurpose>,
@@ -75,8 +75,8 @@ impl FileDialogRequest {
         self.purpose.as_ref()
     }
 
-    /// Folder that the dialog shows when it opens: that of the last choice, else the project's,
-    /// else that of the user's documents.
+    /// Folder that the dialog shows when it opens: the folder that the user chose last, or else
+    /// that of the project, or else that of the user's documents.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()

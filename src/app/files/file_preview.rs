@@ -64,7 +64,7 @@ pub fn follow(
         Intent::PreviewFile(path) => Some(path),
         _ => None,
     });
-    // This system runs each frame; only a new preview counts as a change.
+    // This system runs in every screen update; only a new preview counts as a change.
     let now = preview.bypass_change_detection();
     if let Some(path) = requested.last()
         && now.path.as_ref() != Some(path)

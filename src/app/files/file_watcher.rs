@@ -25,7 +25,7 @@ fn stamp(path: &Path) -> FileStamp {
     Some((data.modified().ok()?, data.len()))
 }
 
-/// A watched file.
+/// File of an open design, polled for changes.
 #[derive(Debug)]
 struct WatchedFile {
     path: PathBuf,

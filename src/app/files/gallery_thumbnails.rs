@@ -1,4 +1,5 @@
-//! Draws the gallery's thumbnails, strips of a few frames, in the background, one after the other.
+//! Draws the gallery's thumbnails in the background, one after the other. A thumbnail is a strip of
+//! a few in-betweens of a gallery project.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -20,14 +21,14 @@ use crate::work::progress::Progress;
 /// Width and height of a strip in pixels: twice its size on screen at scale factor 1.
 pub const STRIP_PX: (u32, u32) = (384, 128);
 
-/// Number of frames in the strip of a project with two designs: the first and the last frame of the
+/// Number of in-betweens in the strip of a project with two designs: the start and the end of the
 /// film, and one halfway between them (heuristic).
 const FRAMES: usize = 3;
 
-/// Maximum number of frames in a strip (heuristic: more would be too small).
+/// Maximum number of in-betweens in a strip (heuristic: more would be too small).
 const MAX_FRAMES: usize = 5;
 
-/// The strips available so far, and the work on the others.
+/// The strips read or drawn so far, the tasks that produce the others, and the running task.
 #[derive(Resource, Debug)]
 pub struct GalleryThumbnails {
     waiting: VecDeque<StripTask>,
@@ -40,7 +41,7 @@ type StripsByName = HashMap<String, RgbaImage>;
 /// Task of a background job that obtains strips.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum StripTask {
-    /// Read all strips cached by an earlier start.
+    /// Read all strips cached by an earlier run of the program.
     Read,
     /// Draw the strip of the project with this name.
     Draw(String),
@@ -50,7 +51,8 @@ impl FromWorld for GalleryThumbnails {
     fn from_world(world: &mut World) -> Self {
         let entries = &world.resource::<GalleryEntries>().0;
         let mut names: Vec<&String> = entries.iter().map(|entry| &entry.name).collect();
-        // The examples of the invitation come first, because it shows their strips at the start.
+        // The examples of the invitation come first, because the invitation shows their strips at
+        // the start.
         names.sort_by_key(|name| !EXAMPLES.contains(&name.as_str()));
         let drawing_tasks = names.into_iter().map(|name| StripTask::Draw(name.clone()));
         Self {
@@ -76,8 +78,8 @@ impl GalleryThumbnails {
         self.done.get(name)
     }
 
-    /// Collects finished strips and returns the next task. While more urgent work runs elsewhere,
-    /// cancels a running task and returns no drawing task.
+    /// Collects finished strips and returns the next task. If `is_urgent_elsewhere`, more urgent
+    /// work is running: then cancels a running task and returns no task that draws.
     fn next(&mut self, is_urgent_elsewhere: bool) -> Option<StripTask> {
         if let Some((task, job)) = &self.running {
             // Strips must not slow down the transition that the user waits for.
@@ -88,7 +90,8 @@ impl GalleryThumbnails {
                 Ok(strips) => self.done.extend(strips),
                 // The job was cancelled in favour of more urgent work and is tried again later.
                 Err(_) if job.is_cancelled() => self.waiting.push_front(task.clone()),
-                // A project that cannot be shown has no strip; opening it shows why.
+                // A project that cannot be shown has no strip. The user sees the reason on opening
+                // the project.
                 Err(_) => {}
             }
             self.running = None;
@@ -109,7 +112,7 @@ pub fn advance(
     cache: Res<GalleryStripCache>,
     mut thumbnails: ResMut<GalleryThumbnails>,
 ) {
-    // Change detection is not used for this resource.
+    // No system reacts to changes of this resource, so none are reported.
     let thumbnails = thumbnails.bypass_change_detection();
     let Some(task) = thumbnails.next(session.work().is_some()) else {
         return;
@@ -127,8 +130,8 @@ pub fn advance(
     thumbnails.running = Some((task, job));
 }
 
-/// Reason why a strip could not be drawn; never shown, because the user sees it on opening the
-/// project.
+/// Reason why a strip could not be drawn. It is not reported, because the user sees it on opening
+/// the project.
 type StripError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Loads and builds a gallery project and draws its strip.
@@ -140,7 +143,7 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let sequence = Sequence::new(built).ok_or("a project has at least one segment")?;
     let sequence = sequence.closed(loaded.project.ends_where_it_starts());
     let timing = loaded.project.timing;
-    // With several segments, the strip has as many frames as designs, up to `MAX_FRAMES`.
+    // With several segments, the strip has as many in-betweens as designs, up to `MAX_FRAMES`.
     let frames = if segments.len() > 1 {
         segments.len() + 1
     } else {
@@ -183,7 +186,7 @@ mod tests {
         StripTask::Draw(name.to_owned())
     }
 
-    /// The next task, after the running one has finished.
+    /// Returns the next task, after the running one has finished.
     fn next(thumbnails: &mut GalleryThumbnails, is_urgent_elsewhere: bool) -> Option<StripTask> {
         while thumbnails.running.is_some() {
             if let Some(next) = thumbnails.next(is_urgent_elsewhere) {

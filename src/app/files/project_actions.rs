@@ -284,7 +284,7 @@ pub fn save(
     }
 }
 
-/// State that [`poll`] carries from frame to frame.
+/// State that [`poll`] keeps from one call to the next.
 #[derive(SystemParam)]
 pub struct PollState<'w, 's> {
     /// Open designs whose notes have been shown.
@@ -305,7 +305,7 @@ pub fn poll(
     presentation: Res<Presentation>,
     mut state: PollState,
 ) {
-    // The session is polled each frame; only an outcome counts as a change.
+    // The session is polled in every screen update; only an outcome counts as a change.
     let can_swap = playback.can_swap_film(session.timing());
     let outcome = session.bypass_change_detection().poll(can_swap);
     if outcome.is_some() {
@@ -316,7 +316,7 @@ pub fn poll(
     }
     match outcome {
         None => return,
-        // The match editor shows the problem where it was caused.
+        // No notice is needed: the open match editor shows the problem.
         Some(WorkOutcome::RebuildFailed) if editor.is_open => return,
         Some(WorkOutcome::RebuildFailed) => {}
         Some(WorkOutcome::Rebuilt) => {
@@ -334,8 +334,8 @@ pub fn poll(
         Some(WorkOutcome::Opened) => {
             playback.rewind(session.timing());
             auto_fit.0 = true;
-            // Newly opened designs play at once, and so does a gallery project chosen by its
-            // picture; a saved project is started by the user.
+            // Newly opened designs play at once, and so does a gallery project that the user chose
+            // by its thumbnail. A saved project plays only when the user starts it.
             let chosen = state.to_play.0.take();
             let is_chosen = chosen.is_some()
                 && chosen.as_deref() == session.gallery_name()

@@ -19,25 +19,26 @@ pub enum EditorAction {
     Hover(Option<EditorPointer>),
     /// The mouse button is pressed at this position.
     Press(EditorPointer),
-    /// The pointer is dragged to this position, by an offset in logical pixels, y down, since the
-    /// last event.
+    /// The pointer is dragged to this position. The offset is the movement since the last event, in
+    /// logical pixels, y down.
     Drag(EditorPointer, Vec2),
     /// The mouse button is released.
     Release,
-    /// A click: press and release without a drag.
+    /// The mouse button is pressed and released at this position, without a drag.
     Click(EditorPointer),
     /// Delete the pin, line or cut under the pointer or, with the parts tool, all pairings of the
     /// part under the pointer.
     Remove(EditorPointer),
     /// Delete the selected pin, line or cut.
     RemoveSelected,
-    /// Delete all pins, lines, cuts and part pairings set by hand; matching rules stay.
+    /// Delete everything that was set by hand: pins, lines, cuts and pairings of parts. The
+    /// matching rules stay.
     Clear,
     /// Set whether the film is shown next to the designs.
     ShowFilm(bool),
     /// Set whether all panes pan and zoom together.
     LinkPanes(bool),
-    /// Move a pane by an offset in logical pixels, y down.
+    /// Move the content of a pane by an offset in logical pixels, y down.
     Pan(EditorPane, Vec2),
     /// Zoom a pane about a point.
     Zoom {
@@ -57,13 +58,14 @@ pub struct EditorPointer {
     pub side: Side,
     /// Position in the frame that both designs are placed in.
     pub position: DVec2,
-    /// Maximum distance, in the frame, at which the pointer picks something.
+    /// Maximum distance from the pointer, in the frame's unit of length, at which a handle,
+    /// boundary point or part is picked.
     pub pick_radius: f64,
     /// Whether snapping is suspended, because a modifier key is held down.
     pub ignores_snapping: bool,
 }
 
-/// Tool of the match editor: the effect of a click.
+/// Tool of the match editor, which determines the effect of a click.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EditorTool {
     /// Sets a pin: a pair of points that correspond.
@@ -75,10 +77,10 @@ pub enum EditorTool {
     Parts,
 }
 
-/// One pane of the editor.
+/// One pane of the match editor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EditorPane {
-    /// One of the designs.
+    /// Pane of the source or of the target.
     Design(Side),
     /// The film between the two designs.
     Film,

@@ -4,7 +4,8 @@
 use bevy::input::ButtonInput;
 use bevy::prelude::{MouseButton, Res, ResMut, Resource};
 
-/// Whether a text field or menu has the keyboard focus; keys then trigger no intents.
+/// Whether a text field, a menu or the file dialog has the keyboard focus; keys then trigger no
+/// intents.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct KeyboardFocus(pub bool);
 
@@ -12,8 +13,9 @@ pub struct KeyboardFocus(pub bool);
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TextSelected(pub bool);
 
-/// Number of frames after the release of a mouse button during which changes still belong to its
-/// gesture. Panels are drawn after the systems have run, so their changes arrive one frame later.
+/// Number of frames after the release of a mouse button during which changes still belong to the
+/// gesture. Panels are drawn after the systems have run, so the changes that they send arrive one
+/// frame later.
 const FRAMES_AFTER: u8 = 2;
 
 /// The mouse gesture or text entry in progress, numbered so that its changes form one undo step.

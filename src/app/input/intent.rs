@@ -1,8 +1,8 @@
 //! Everything the user can do, as one message type.
 //!
 //! Keys, panels, dialogs and dropped files only write [`Intent`]s; systems in the other files act
-//! on them. So a key and a button with the same meaning cannot drift apart, and tests can drive the
-//! program without a window.
+//! on them. So a key and a button that write the same intent always do the same, and tests can
+//! drive the program without a window.
 
 use std::path::PathBuf;
 
@@ -46,7 +46,7 @@ pub enum Intent {
     Slower,
     /// Reset the playback speed to 1.
     NormalSpeed,
-    /// Set the playback speed, a factor on the film's own timing.
+    /// Set the playback speed; 1 plays the film with its own timing.
     SetSpeed(f64),
     /// Cycle through once, loop and ping-pong.
     CyclePlayMode,
@@ -60,7 +60,7 @@ pub enum Intent {
     ReplaceSettings(Box<Project>),
     /// Use the method with this warp and content.
     SetMethod(WarpKind, ContentKind),
-    /// Use the next method that these designs support.
+    /// Use the next method, in cyclic order, that the current designs support.
     NextMethod,
     /// Try all suitable methods in the background, then use the best one.
     ChooseBestMethod,
@@ -92,7 +92,8 @@ pub enum Intent {
     /// Insert these designs before the design with this index, or after all designs if the index
     /// equals the number of designs.
     InsertDesigns(usize, Vec<PathBuf>),
-    /// Replace the list of designs: each entry is new or names the index it had before.
+    /// Replace the list of designs. Each entry is a design with its index in the old list, or with
+    /// `None` if the design is new.
     ReorderDesigns(Vec<MovedDesigns>),
     /// Set whether the film is a closed loop, in which the last design leads back to the first.
     CloseLoop(bool),
@@ -113,7 +114,8 @@ pub enum Intent {
     CopySvg,
     /// Export the film in the background.
     ExportFilm,
-    /// Export a comparison sheet of all methods for this pair, in the background.
+    /// Export a sheet that compares all methods for the designs of the current segment, in the
+    /// background.
     ExportMethodSheet,
     /// Cancel opening or building a project.
     CancelWork,
@@ -123,7 +125,7 @@ pub enum Intent {
     CancelExport,
     /// Start or end a talk.
     Present {
-        /// Whether the window was opened for the talk and closes with it.
+        /// Whether the window was opened for the talk and closes when the talk ends.
         is_all: bool,
     },
     /// Blacken the screen during a talk, or show the drawing again.
@@ -134,19 +136,19 @@ pub enum Intent {
     ToggleCaptions,
     /// Switch between full screen and window.
     ToggleFullscreen,
-    /// Hide everything but the stage, or show it again.
+    /// Hide everything except the stage, or show the panels again.
     TogglePanels,
     /// Show or hide the list of keys.
     ToggleHelp,
     /// Show or hide the frame times.
     ToggleFrameTimes,
-    /// Show or hide the graphs of the film's measures over time.
+    /// Show or hide the graphs of the measured quantities over t.
     TogglePlots,
     /// Apply the remedy for the defect with this index in the list of findings.
     ApplyRemedy(usize),
     /// Apply the suggested change with this index, in the order shown.
     ApplySuggestion(usize),
-    /// Measure the film again after measuring was stopped.
+    /// Check the film again after the automatic check was stopped.
     MeasureAgain,
     /// Show or hide the comparison with a second method next to the stage.
     ToggleComparison,
@@ -176,8 +178,8 @@ pub enum Intent {
     SaveBlend,
     /// Export the saved blends to files.
     ExportSavedBlends,
-    /// Esc: close or cancel one thing, the topmost question, overlay, work or mode; with nothing
-    /// else left, cancel an export.
+    /// Esc: close or cancel the topmost open question, overlay, background work or mode. If there
+    /// is none, cancel the export.
     Escape,
     /// Fit the whole transition into the view.
     FitView,
@@ -195,7 +197,7 @@ pub enum Intent {
     Editor(EditorAction),
     /// Show or hide the grid deformed by the warp.
     ToggleGrid,
-    /// Show or hide onion skins: thin outlines of the film at other t.
+    /// Show or hide onion skins: thin outlines of the film at its stops or at regular t.
     ToggleOnion,
     /// Replace the user's preferences.
     SetPreferences(Preferences),
@@ -227,8 +229,8 @@ pub enum RecoveryAnswer {
 }
 
 impl Intent {
-    /// Whether the intent is allowed during a talk, because it shows the audience nothing but the
-    /// drawing.
+    /// Returns whether the intent is allowed during a talk: it must show the audience nothing but
+    /// the drawing.
     #[must_use]
     pub const fn is_allowed_in_talk(&self) -> bool {
         matches!(
@@ -259,7 +261,7 @@ impl Intent {
 /// Answer to a question about unsaved changes or a running export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnsavedAnswer {
-    /// Save the project, or wait for the export, then continue.
+    /// Save the project, or wait for the export to finish; then continue.
     Save,
     /// Continue without saving, or cancel the export and continue.
     Discard,

@@ -1,9 +1,9 @@
 //! Key map: which key combination triggers which intent.
 //!
-//! The rows of [`key_table`](super::key_table) drive both recognition and the list of keys shown in
-//! the window, so the two always agree. Letters and signs are matched by the character that the key
-//! prints and digits by physical position; so the number row works on a French keyboard and `[` on
-//! a German one.
+//! The rows of [`key_table`](super::key_table) define both which keys are recognised and the list
+//! of keys in the window, so the two always agree. Letters and signs are matched by the character
+//! that the key prints, digits by the physical position of the key. So the number row works on a
+//! French keyboard, and `[` works on a German one.
 
 use std::fmt;
 

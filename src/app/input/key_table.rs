@@ -293,8 +293,8 @@ mod tests {
         let map = KeyMap::default();
         let bindings = map.rows().iter().flat_map(|row| &row.bindings);
         let bound: BTreeSet<String> = bindings
-            // Backspace has two bindings, of which the page lists only the one outside the editor.
-            // The set merges them.
+            // Backspace has two bindings, one of them only in the match editor. The page lists the
+            // key once, and so does the set.
             .map(KeyBinding::chord)
             .collect();
         assert_eq!(documented, bound);

@@ -14,17 +14,17 @@ use crate::transition::{PlayMode, Timing, TransitionMethod, TransitionStop};
 pub struct Preferences {
     /// Colour theme of the panels.
     pub theme: ThemeChoice,
-    /// Layers that the stage draws.
+    /// Elements of the transition that the stage shows, such as the fill.
     pub show: StageVisibility,
-    /// Whether onion skins are shown: thin outlines of the film at other t.
+    /// Whether onion skins are shown: thin outlines of the film at its stops or at regular t.
     pub onion: bool,
     /// Whether the panels are shown.
     pub panels: bool,
     /// Whether the list of keys is shown.
     pub help: bool,
-    /// Whether the frame times are shown.
+    /// Whether the strip of frame times is shown.
     pub times: bool,
-    /// Whether the graphs over time are shown.
+    /// Whether the graphs of the measured quantities over t are shown.
     pub plots: bool,
     /// Resolution of saved images.
     pub capture_scale: ImageScale,
@@ -32,7 +32,7 @@ pub struct Preferences {
     pub capture_transparent: bool,
     /// File type of exported films; `None` chooses one that suits the content.
     pub record_format: Option<FilmFileFormat>,
-    /// Layout, rate and range of exported films.
+    /// Layout, frame rate, range of t, ending and transparency of exported films.
     pub film: FilmExportOptions,
     /// Whether the export settings are shown.
     pub film_options: bool,
@@ -73,8 +73,8 @@ pub struct FilmExportOptions {
 }
 
 impl Default for FilmExportOptions {
-    /// Layout for slides at 25 frames per second, a rate that GIF's clock of 1/100 s represents
-    /// exactly.
+    /// Layout for slides at 25 frames per second. GIF counts time in hundredths of a second, so it
+    /// represents this rate exactly.
     fn default() -> Self {
         Self {
             layout: PictureLayout::default(),
@@ -87,9 +87,9 @@ impl Default for FilmExportOptions {
 }
 
 impl FilmExportOptions {
-    /// First and last t of the export; `None` stands for the first or last t of the whole film.
-    /// Drops values that are neither one of these two nor a stop: another project may be open by
-    /// now, or a stop may have been removed.
+    /// Returns the first and last t of the export; `None` stands for the first or last t of the
+    /// whole film. A stored t that is neither an end of the film nor a stop is dropped: another
+    /// project may be open by now, or a stop may have been removed.
     #[must_use]
     pub fn valid_range(&self, whole_film: &Timing, stops: &[TransitionStop]) -> [Option<f64>; 2] {
         let exists = |t: &f64| {
@@ -99,7 +99,8 @@ impl FilmExportOptions {
         self.range.map(|at| at.filter(exists))
     }
 
-    /// Timing of the exported film; a section runs at the same speed as in the whole film.
+    /// Returns the timing of the exported film. If only a section of the film is exported, the
+    /// section runs at the same speed as in the whole film.
     #[must_use]
     pub fn timing(&self, whole_film: &Timing, stops: &[TransitionStop]) -> Timing {
         let [from, to] = self.valid_range(whole_film, stops);
@@ -127,7 +128,7 @@ pub enum FilmEnding {
     AsPlayed,
     /// The film stops.
     Once,
-    /// The film plays back to its start, so that it loops without a jump.
+    /// The film then plays backwards to its start, so that it loops without a jump.
     Loop,
 }
 
@@ -197,7 +198,7 @@ impl FilmFileFormat {
 /// Method shown by the comparison next to the stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ComparisonMethod {
-    /// Every vertex of the shared mesh moves on a straight line.
+    /// Every vertex of the compatible mesh moves on a straight line.
     Straight,
     /// A method, given by its warp and content.
     Method(TransitionMethod),
@@ -219,7 +220,7 @@ impl ComparisonMethod {
         }
     }
 
-    /// The method, a warp and a content, with which the comparison is built.
+    /// Returns the method (warp and content) with which the comparison is built.
     #[must_use]
     pub fn method(self) -> TransitionMethod {
         match self {

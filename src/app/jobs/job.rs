@@ -11,13 +11,14 @@ use std::time::{Duration, Instant};
 
 use crate::work::progress::Progress;
 
-/// Function that wakes the window; one for the process, as there is one event loop.
+/// Function that wakes the window. There is one for the process, because the process has one event
+/// loop.
 static WAKE: OnceLock<Box<dyn Fn() + Send + Sync>> = OnceLock::new();
 
 /// Sets the function that wakes the window whenever a job has news. Without it, as in tests,
 /// results are picked up by polling.
 pub fn set_waker(wake: impl Fn() + Send + Sync + 'static) {
-    // A second window of the same process would use the same event loop.
+    // If a function is set already, it stays: all windows of a process use the same event loop.
     drop(WAKE.set(Box::new(wake)));
 }
 
@@ -28,7 +29,7 @@ pub fn wake() {
     }
 }
 
-/// Wakes the window on drop, so that it notices a panic as quickly as a result.
+/// Wakes the window on drop, so that the window notices a panic of the job as quickly as a result.
 struct WakeOnDrop;
 
 impl Drop for WakeOnDrop {
@@ -48,8 +49,8 @@ pub struct JobTracker {
 impl Progress for JobTracker {
     fn report(&self, stage: &'static str, fraction: f64) {
         *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
-        // Stored in thousandths, because there is no atomic float; a progress bar of 120 points
-        // shows no finer steps.
+        // Stored in thousandths, because there is no atomic float; a progress bar 120 logical
+        // pixels wide shows no finer steps.
         let permille = (fraction.clamp(0.0, 1.0) * 1000.0) as u32;
         // Relaxed ordering suffices here and below, because the values are independent.
         self.permille.store(permille, Ordering::Relaxed);

@@ -1,5 +1,5 @@
-//! Draws the contours of a measure over the map, and hatching where blends fold or cross
-//! themselves. The measures are sampled in the background, first coarsely, then finely.
+//! Draws the contours of a measure over the map, and hatching where blends have folds or crossings.
+//! The measures are sampled in the background, first coarsely, then finely.
 
 use std::sync::Arc;
 
@@ -67,7 +67,7 @@ impl MapContours {
         self.sampling.is_some() || self.drawing.is_some()
     }
 
-    /// Takes the next finer samples and redraws the image in the colour `ink` where needed; returns
+    /// Takes the next finer samples and, if needed, redraws the image in the colour `ink`; returns
     /// whether the image is new.
     pub fn update(
         &mut self,

@@ -109,7 +109,7 @@ fn extend_path(mut path: MapPath, through: &[DVec2], view: &MapView) -> MapPath 
     };
     let mut points = simplify_polyline(through, PATH_TOLERANCE);
     if path.places.is_empty() && !before.is_empty() {
-        // A path drawn in one go also starts with a stop.
+        // If the path is empty, a line drawn by hand starts it with a stop.
         path.places.push(new_stop(points.remove(0), &path, view));
     } else {
         points.remove(0);
@@ -124,7 +124,7 @@ fn extend_path(mut path: MapPath, through: &[DVec2], view: &MapView) -> MapPath 
     path
 }
 
-/// A named stop at a point, snapped to the nearest design or stop.
+/// Returns a named stop at a point or, if a design or stop lies close to the point, at that place.
 fn new_stop(at: DVec2, path: &MapPath, view: &MapView) -> Waypoint {
     let pictures = view.pictures();
     let sites = pictures.map_or(&[][..], |pictures| pictures.map().sites());

@@ -45,7 +45,7 @@ pub struct MapView {
     marker: DVec2,
     /// Positions of the marker since recording started; `None` when not recording.
     recorded: Option<Vec<DVec2>>,
-    /// Playback's t in the previous frame of the window.
+    /// Playback's t at the previous screen update.
     t: Option<f64>,
     /// The project whose designs the map shows.
     loaded: Option<LoadedProject>,
@@ -106,9 +106,11 @@ impl MapView {
     }
 
     /// Returns the intent that replaces the usual intent of a key while the map is shown; `None` if
-    /// the key keeps its meaning. Arrow keys move the marker. Other keys edit the path: the key for
-    /// a new stop extends it, that of the match editor turns drawing on or off, that of the grid
-    /// starts or ends recording, and that of the normal speed removes the last stop.
+    /// the key keeps its meaning.
+    ///
+    /// Arrow keys move the marker. The key that adds a stop extends the path; the key of the match
+    /// editor turns drawing on or off; the key of the grid starts or ends recording; the key of the
+    /// normal speed removes the last stop.
     #[must_use]
     pub fn map_intent(&self, intent: &Intent) -> Option<Intent> {
         let direction = match intent {
@@ -144,7 +146,7 @@ impl MapView {
         let mut sites = self.pictures.as_ref()?.map().sites().to_vec();
         let site = sites.get_mut(design).filter(|_| to.is_finite())?;
         *site = to.clamp(DVec2::splat(-1.0), DVec2::ONE);
-        // A map with two designs in one place is refused.
+        // `WeightMap::new` fails if two designs lie in the same place.
         WeightMap::new(&sites).ok().map(|_| sites)
     }
 
@@ -169,7 +171,8 @@ impl MapView {
         to.is_some()
     }
 
-    /// Builds the map of the open project and its images; returns whether something is new.
+    /// Builds the map of the open project and its images; returns whether the map or an image is
+    /// new.
     pub fn update(&mut self, session: &Session, is_new: bool) -> bool {
         let mut is_changed = self.collect_space();
         if !self.is_shown {
@@ -226,7 +229,8 @@ impl MapView {
         }
     }
 
-    /// Switches to the project's current settings; returns whether the map changes.
+    /// Switches to the project's current settings; returns `true`, because at least the path over
+    /// the map is new.
     fn adopt_project(&mut self, loaded: LoadedProject) -> bool {
         let before = self.loaded.replace(loaded.clone());
         let is_same = before.is_some_and(|before| {
@@ -273,7 +277,8 @@ impl MapView {
             None => return false,
             Some(Ok(space)) => {
                 self.adopt_space(space);
-                // Spaces of fields and of given meshes have no draft.
+                // Spaces of distance fields and of given meshes have no draft, so their first build
+                // is final.
                 let is_matched = self.pictures.as_ref().is_some_and(MapPictures::is_matched);
                 let is_draft = std::mem::take(&mut self.is_draft);
                 if let Some(loaded) = self.loaded.clone().filter(|_| is_draft && is_matched) {

@@ -20,8 +20,8 @@ use crate::transition::TransitionStyle;
 /// Side of a saved blend's thumbnail, in pixels (heuristic).
 const SAVED_BLEND_PX: u32 = 96;
 
-/// Maximum number of saved blends whose thumbnails are drawn in one frame (resource limit: a blend
-/// of fields takes some milliseconds).
+/// Maximum number of saved blends whose thumbnails are drawn in one screen update (resource limit:
+/// a blend of distance fields takes some milliseconds).
 const SAVED_BLENDS_PER_FRAME: usize = 4;
 
 /// The map of a space of designs with everything drawn on it.
@@ -70,7 +70,7 @@ impl MapPictures {
         }
     }
 
-    /// The space of designs.
+    /// The space whose blends the map shows.
     #[must_use]
     pub fn space(&self) -> &DesignSpace {
         &self.space
@@ -152,7 +152,7 @@ impl MapPictures {
     }
 
     /// Vector drawing of the blend with the current [`Self::weights`], on the colour `background`;
-    /// the background is transparent if this is `None`.
+    /// if `background` is `None`, the drawing is transparent.
     #[must_use]
     pub fn drawing(
         &self,

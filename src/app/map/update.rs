@@ -25,7 +25,8 @@ pub fn follow(
     mut view: ResMut<MapView>,
 ) {
     let is_new = session.is_changed() || view.is_changed();
-    // Change detection is set by hand: this system runs each frame but seldom changes anything.
+    // This system runs in every screen update but seldom changes the resource. It bypasses Bevy's
+    // change detection and reports changes itself.
     let map = view.bypass_change_detection();
     let mut is_changed = map.update(&session, is_new);
     is_changed |= map.follow_playback(playback.t());

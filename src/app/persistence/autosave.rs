@@ -34,8 +34,9 @@ pub fn folder() -> Option<PathBuf> {
 pub struct Autosave {
     /// Current slot of this window; `None` switches autosave off, as in tests.
     slot: Option<AutosaveSlot>,
-    /// Slot with which this window started. It is stored here, and so stays locked, once the slot
-    /// of a recovered project has replaced it; `None` before that.
+    /// Slot with which this window started; `None` while it is still the current slot. After a
+    /// recovered project has been opened, the project's slot is the current one, and this one stays
+    /// locked because it is stored here.
     initial_slot: Option<AutosaveSlot>,
     /// Slot of the project being recovered; it becomes the current slot once the project is open.
     opening_slot: Option<AutosaveSlot>,
@@ -144,7 +145,7 @@ pub fn answer_recovery(
 
 /// Autosaves changes, and deletes the autosave once they have been saved or discarded.
 pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices: ResMut<Notices>) {
-    // Change detection is not used for this resource.
+    // No system reacts to changes of this resource, so none are reported.
     let autosave = autosave.bypass_change_detection();
     autosave.take_over_recovered_slot(&session);
     let Some(slot) = &autosave.slot else {

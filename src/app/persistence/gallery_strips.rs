@@ -1,5 +1,5 @@
-//! Disk cache of the gallery's thumbnails, strips of a few frames each. Drawing all of them takes
-//! half a minute on a small machine.
+//! Disk cache of the gallery's thumbnails, each a strip of a few in-betweens. Drawing all of them
+//! takes half a minute on a small machine.
 
 use std::collections::HashMap;
 use std::fs;

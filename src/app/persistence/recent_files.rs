@@ -35,7 +35,7 @@ impl RecentEntry {
     }
 }
 
-/// Entries of the list, the newest first.
+/// List of the files opened last, the newest first.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecentFiles {
     #[serde(default)]
@@ -87,7 +87,8 @@ impl StoredRecentFiles {
     #[must_use]
     pub fn of_file(path: Option<PathBuf>) -> Self {
         let mut recent = path.as_deref().map(RecentFiles::read).unwrap_or_default();
-        // Entries with missing files are dropped; this is checked only here, not in each frame.
+        // Entries with missing files are dropped; this is checked only at the start, because it
+        // reads the disk.
         let exists = |opened: &RecentEntry| opened.files.iter().all(|file| file.exists());
         recent.opened.retain(exists);
         Self { recent, path }

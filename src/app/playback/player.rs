@@ -1,4 +1,4 @@
-//! Playback: moves the blend parameter t over time and handles stops like slides.
+//! Playback: moves the blend parameter t over time, and from stop to stop as from slide to slide.
 //!
 //! [`Playback`] is a plain value whose actions are methods, so that tests can call them. The film
 //! runs on [`Timing`], which the export shares. Playing to a stop uses a separate motion: it starts
@@ -79,8 +79,8 @@ impl Playback {
     }
 
     /// Whether another film of the same designs may replace this one unnoticed: while t is at rest,
-    /// near a design or before the first one, or at any time if the film neither starts nor ends at
-    /// such a t.
+    /// and while t is near a design or before the first one. A film that neither starts nor ends at
+    /// such a t may be replaced at any time.
     #[must_use]
     pub fn can_swap_film(&self, timing: &Timing) -> bool {
         // At the designs all films of a segment are equal.
@@ -95,7 +95,7 @@ impl Playback {
         self.backwards
     }
 
-    /// Playback speed, a factor on the timing.
+    /// Playback speed; 1 is the speed that the project's timing gives.
     #[must_use]
     pub fn speed(&self) -> f64 {
         self.speed
@@ -123,8 +123,8 @@ impl Playback {
         };
     }
 
-    /// Stops playback and moves t by a number of hundredths. If t was a whole hundredth, it stays
-    /// one; rounding errors do not add up.
+    /// Stops playback and moves t by a number of hundredths. Rounding errors do not add up: if t
+    /// was a whole number of hundredths, it remains one.
     pub fn step(&mut self, hundredths: i32) {
         self.motion = PlaybackMotion::Still;
         let t = self.t + f64::from(hundredths) / 100.0;
@@ -161,8 +161,8 @@ impl Playback {
     pub fn reverse(&mut self) {
         self.backwards = !self.backwards;
         if let PlaybackMotion::ToStop(motion) = &mut self.motion {
-            // The reversed motion continues at the elapsed time at which its eased t is the current
-            // t.
+            // The reversed motion continues at the elapsed time for which its easing gives the
+            // current t.
             let progress = if motion.secs > 0.0 {
                 motion.easing.apply(motion.elapsed / motion.secs)
             } else {
@@ -179,7 +179,7 @@ impl Playback {
 
     /// Plays from the current t to `to` and stops there.
     pub fn play_to(&mut self, to: f64, timing: &Timing, stops: &[TransitionStop]) {
-        // The motion takes about as long as the film takes for the same distance.
+        // The motion takes about as long as the film takes for the same distance in t.
         let middle = 0.5 * (self.t + to);
         let secs = (to - self.t).abs() / timing.speed_at(middle, stops);
         self.motion = PlaybackMotion::ToStop(SegmentToStop {
@@ -201,7 +201,7 @@ impl Playback {
         }
     }
 
-    /// Value of t at the next stop or end of the film; `None` after the last.
+    /// Value of t at the next stop or end of the film; `None` after the last of these.
     #[must_use]
     pub fn next_stop(&self, timing: &Timing, stops: &[TransitionStop]) -> Option<f64> {
         next_landmark(self.heading(), false, timing, stops)
@@ -268,7 +268,8 @@ impl Playback {
             PlayMode::Once => unclamped_secs.clamp(0.0, film_secs),
             PlayMode::Loop => unclamped_secs.rem_euclid(film_secs),
             PlayMode::PingPong => {
-                // At tenfold speed, the film may turn round several times during one slow frame.
+                // At tenfold speed, the film may turn round several times between two slow screen
+                // updates.
                 let turns = (unclamped_secs / film_secs).floor();
                 let secs_from_end = unclamped_secs - turns * film_secs;
                 if turns.rem_euclid(2.0) == 0.0 {
@@ -386,7 +387,7 @@ impl Playback {
     }
 }
 
-/// Advances playback by the time since the last frame.
+/// Advances playback by the time since the last screen update.
 pub fn advance(time: Res<Time>, mut playback: ResMut<Playback>, session: Res<Session>) {
     if playback.is_playing() {
         playback.advance(time.delta_secs_f64(), session.timing(), session.stops());

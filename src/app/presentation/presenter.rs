@@ -1,7 +1,8 @@
 //! Talks: the drawing in full screen, from stop to stop.
 //!
 //! During a talk the panels are hidden and only the keys of a talk work, so that nothing else can
-//! appear before an audience. A talk starts at the first stop.
+//! appear before an audience. If the film has one segment, the talk starts at the first stop,
+//! otherwise at the start of the film.
 
 use std::time::{Duration, Instant};
 
@@ -32,9 +33,9 @@ pub struct Presentation {
 /// A talk in progress.
 #[derive(Clone, Debug, PartialEq)]
 struct ActiveTalk {
-    /// Whether the window was opened for the talk and closes with it.
+    /// Whether the window was opened for the talk and closes when the talk ends.
     is_all: bool,
-    /// Whether t has been moved to the first stop, which requires a film.
+    /// Whether t has been moved to the place where the talk starts; false until a film is built.
     has_begun: bool,
     is_black: bool,
     /// The user's choice whether captions are shown. `None` if the user has not chosen; captions
@@ -79,14 +80,16 @@ impl Presentation {
         talk.map_or(Duration::ZERO, |talk| talk.began.elapsed())
     }
 
-    /// Whether the talk is about to change by itself: to begin, or to hide the pointer.
+    /// Returns whether the talk will change without input: it waits for the film, or the pointer
+    /// will soon be hidden.
     #[must_use]
     pub fn has_pending_change(&self) -> bool {
         let talk = self.talk.as_ref();
         talk.is_some_and(|talk| !talk.has_begun || talk.idle_secs < POINTER_SECS)
     }
 
-    /// Starts a talk; `before` is restored when it ends.
+    /// Starts a talk; the preferences and the window mode in `before` are restored when the talk
+    /// ends.
     fn begin(&mut self, is_all: bool, before: (Preferences, Option<WindowMode>)) {
         self.talk = Some(ActiveTalk {
             is_all,
@@ -144,7 +147,8 @@ pub fn apply(
                 presentation.talk = None;
             }
             (Intent::ToggleBlackScreen, Some(talk)) => talk.is_black = !talk.is_black,
-            // Toggles the captions as they are visible now, whether by choice or by default.
+            // The captions may be visible by the user's choice or by default; in either case they
+            // are toggled.
             (Intent::ToggleCaptions, Some(_)) => {
                 let are_shown = presentation.captions(&session).is_some();
                 if let Some(talk) = &mut presentation.talk {
@@ -162,7 +166,8 @@ pub fn fullscreen_mode() -> WindowMode {
     WindowMode::BorderlessFullscreen(MonitorSelection::Current)
 }
 
-/// Moves to the first stop as soon as there is a film; ends the talk if no film can be built.
+/// Moves t to the place where the talk starts, as soon as there is a film; ends the talk if no film
+/// can be built.
 pub fn begin(
     mut presentation: ResMut<Presentation>,
     session: Res<Session>,

@@ -34,7 +34,7 @@ pub struct SpeakerCamera;
 /// The speaker's window and its content.
 #[derive(Resource, Debug, Default)]
 pub struct SpeakerWindow {
-    /// The window and its camera, while open.
+    /// Entities of the window and of its camera; `None` while the window is closed.
     window: Option<(Entity, Entity)>,
     /// The film and the value of t that the image shows.
     shown: Option<(Sequence, f64)>,
@@ -72,8 +72,9 @@ pub fn apply(
     mut audience: Query<(&mut Window, Option<&OnMonitor>), With<PrimaryWindow>>,
     mut commands: Commands,
 ) {
-    // Screen for the audience's window during a talk: one on which this window is not yet. Some
-    // systems do not report a window's screen; then the speaker's window does not open by itself.
+    // Screen for the audience's window during a talk: any screen except the one on which the window
+    // is now. Some systems do not report the screen of a window; then the speaker's window does not
+    // open by itself.
     let audience_screen = audience.single().ok().and_then(|(_, on)| Some(on?.0));
     let second = audience_screen.and_then(|first| monitors.iter().find(|screen| *screen != first));
     for intent in intents.read() {
@@ -125,7 +126,7 @@ fn open(commands: &mut Commands, screen: Option<Entity>) -> (Entity, Entity) {
     (window, camera.id())
 }
 
-/// Closes the window.
+/// Closes the speaker's window, if it is open, and drops the image of the next stop.
 fn close(speaker: &mut SpeakerWindow, commands: &mut Commands) {
     if let Some((window, camera)) = speaker.window.take() {
         commands.entity(camera).despawn();
@@ -140,7 +141,7 @@ pub fn follow(mut speaker: ResMut<SpeakerWindow>, session: Res<Session>, playbac
     if !speaker.is_open() {
         return;
     }
-    // Change detection is not used for this resource.
+    // No system reacts to changes of this resource, so it is not marked as changed.
     let speaker = speaker.bypass_change_detection();
     if let Some(picture) = BackgroundJob::take_result(&mut speaker.job) {
         speaker.picture = picture.ok().map(Arc::new);
@@ -162,7 +163,7 @@ pub fn follow(mut speaker: ResMut<SpeakerWindow>, session: Res<Session>, playbac
     });
 }
 
-/// Draws the film at `t`.
+/// Draws an image of the film at `t`, the t of the next stop.
 fn draw_next_stop(
     sequence: Sequence,
     style: TransitionStyle,

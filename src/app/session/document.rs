@@ -150,8 +150,8 @@ impl OpenDocument {
         self.stage().map(|stage| &stage.transition)
     }
 
-    /// Playable part of the current segment on the stage: its transition and the settings that the
-    /// transition was built from.
+    /// Transition on the stage for the current segment, with the settings that it was built from;
+    /// `None` if the segment has no transition.
     #[must_use]
     pub fn stage(&self) -> Option<&PlayableSegment> {
         self.segments.get(self.segment_index)?.playable.as_ref()
@@ -169,7 +169,7 @@ impl OpenDocument {
         Some(sequence.closed(self.staged.ends_where_it_starts()))
     }
 
-    /// Approximate bounding box of all frames of all segments; frames are sampled.
+    /// Approximate bounding box of the in-betweens of all segments, sampled over t.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
         let segments = self.segments.iter();
@@ -251,8 +251,8 @@ impl OpenDocument {
             .unwrap_or_else(|| self.loaded.title())
     }
 
-    /// Base name, without extension, for files exported from the project; includes the name of the
-    /// path on the map, if it has one.
+    /// Base name, without extension, for files exported from the project. It includes the name of
+    /// the path on the map, if the path has one.
     #[must_use]
     pub fn file_stem(&self) -> String {
         let name = || self.gallery_name().map(str::to_owned);
@@ -327,7 +327,7 @@ impl OpenDocument {
         is_stale
     }
 
-    /// Clears the problems of all segments that have a playable part.
+    /// Clears the problems of all segments that have a transition on the stage.
     fn clear_problems_of_shown_segments(&mut self) {
         for segment in self
             .segments

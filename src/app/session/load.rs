@@ -24,11 +24,11 @@ pub struct BuiltProject {
     /// Settings that the transitions were built from: those of `project` or, in an interim result,
     /// those of the plainest method (a blend without a warp) or of a draft.
     pub settings: Project,
-    /// One entry per segment of the path through the designs.
+    /// One entry per segment of the film.
     pub segments: Vec<BuiltSegment>,
 }
 
-/// Result of building one segment: the part of the film between two consecutive designs.
+/// Result of building one segment: the section of the film between two consecutive designs.
 #[derive(Debug, Default)]
 pub struct BuiltSegment {
     /// The transition to show and its settings; `None` if none could be built.
@@ -137,7 +137,7 @@ pub struct RebuildRequest {
     pub must_reread: bool,
 }
 
-/// Result to show while the requested one is being built.
+/// Result that is shown while the requested one is being built.
 #[derive(Debug)]
 pub enum InterimResult {
     /// Built by the plainest method: a blend without a warp.
@@ -180,8 +180,8 @@ impl RebuildRequest {
         ))
     }
 
-    /// Segments derived from those on the stage, if only the times of parts or the order of paint
-    /// layers has changed; `None` otherwise.
+    /// Segments derived from those on the stage, if only the time windows of parts or the order of
+    /// paint layers have changed; `None` otherwise.
     fn with_new_part_times(&self) -> Option<Vec<PlayableSegment>> {
         let change = |options: &mut TransitionOptions, now: &TransitionOptions| {
             options.parts.clone_from(&now.parts);
@@ -337,7 +337,7 @@ fn choose_method(loaded: &mut LoadedProject) {
 }
 
 impl BuiltProject {
-    /// The playable part of each segment.
+    /// For each segment, its transition and settings; `None` if it could not be built.
     fn stages(&self) -> Vec<Option<PlayableSegment>> {
         self.segments
             .iter()
@@ -446,7 +446,7 @@ fn build_segment(
     }
 }
 
-/// The candidate that was built from the same settings, if any.
+/// The candidate that was built from the settings `settings`; `None` if there is none.
 fn find_reusable(
     candidates: &[PlayableSegment],
     settings: &SegmentSettings,

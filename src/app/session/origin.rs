@@ -15,7 +15,8 @@ pub enum ProjectOrigin {
     Unsaved,
 }
 
-/// Absolute path of a design; keeps the part of the path that selects something within the file.
+/// Absolute path of a design. If the path also names an element of the file, as in
+/// `leaf.svg#stalk`, the element stays the same.
 #[must_use]
 pub fn absolute(path: &Path) -> PathBuf {
     // The path is not canonicalised, so that a symbolic link leads to its later target if it is

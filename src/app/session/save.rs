@@ -59,7 +59,7 @@ pub fn with_relative_paths(
             Some(old) => DesignSource::in_folder(old, &entry.path)
                 .map_file(|file| relative(folder, file))
                 .to_path(),
-            // Text in the bundled font has no file.
+            // A text in the bundled font has no file.
             None if DesignSource::from_path(&entry.path).file().is_none() => continue,
             // A user's file that replaced a bundled design stays where it is.
             None if entry.path.is_absolute() => relative(folder, &entry.path),

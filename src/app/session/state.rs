@@ -108,7 +108,7 @@ impl Session {
         self.open.as_ref()?.sequence()
     }
 
-    /// Approximate bounding box of all frames on the stage; frames are sampled.
+    /// Approximate bounding box of all in-betweens on the stage, sampled over t.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
         self.open.as_ref()?.bounds()

@@ -13,8 +13,8 @@ use crate::app::session::origin::ProjectOrigin;
 use crate::project::Project;
 
 /// Time after which a running rebuild is abandoned when the settings change again. If it were
-/// shorter, builds of a second would never appear while a slider moves; if longer, the slider would
-/// seem stuck (heuristic).
+/// shorter, builds that take a second would never appear while a slider moves; if longer, the
+/// slider would seem stuck (heuristic).
 const ABANDON_AFTER: Duration = Duration::from_millis(1500);
 
 /// Time after which a project being opened is shown by the plainest method, a blend without a warp.

@@ -46,8 +46,9 @@ impl Plugin for UiPlugin {
                 PreUpdate,
                 silence_repaints.after(EguiPreUpdateSet::InitContexts),
             )
-            // The texture of a new glyph is uploaded together with the asset changes recorded so
-            // far. Without this order, the glyph would be missing for one frame.
+            // egui adds the textures of new glyphs to Bevy's assets. This must happen before Bevy
+            // sends the asset events of the frame. Otherwise a new glyph would be missing for one
+            // frame.
             .configure_sets(
                 PostUpdate,
                 EguiPostUpdateSet::PostProcessOutput.before(AssetEventSystems),
@@ -100,8 +101,8 @@ fn keep_keys_from_widgets(
     for mut input in &mut contexts {
         input.events.retain(|event| match event {
             egui::Event::Key { .. } | egui::Event::Text(_) => typing.0,
-            // This event arrives in every frame, and egui repaints after each event. Only actual
-            // changes are passed on, so that the window can rest.
+            // This event arrives in every frame, and egui repaints after each event. Only changes
+            // are passed on; otherwise the window would never stop redrawing.
             egui::Event::ModifiersChanged(now) => std::mem::replace(&mut *modifiers, *now) != *now,
             _ => true,
         });

@@ -112,7 +112,7 @@ fn show_when_new(ui: &Ui, name: &str, card: &Response) {
     let id = egui::Id::new("the card that was scrolled to");
     let is_new = ui.data_mut(|data| {
         let last = data.get_temp_mut_or_default::<String>(id);
-        // After that, the user can scroll away from the card.
+        // The list scrolls only once, so that the user can scroll away from the card afterwards.
         let is_new = last != name;
         name.clone_into(last);
         is_new

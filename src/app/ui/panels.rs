@@ -1,4 +1,5 @@
-//! Inspector: the panel on the right, with one file per section or group of sections.
+//! Sections of the inspector, the panel on the right. Each module draws one section or a group of
+//! sections.
 
 pub mod appearance;
 pub mod content;

@@ -24,7 +24,8 @@ use crate::transition::TransitionStop;
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SpeakerPass;
 
-/// Observer that makes egui draw through the camera of the speaker window.
+/// Observer that assigns the schedule [`SpeakerPass`] to the camera of the speaker window, so that
+/// egui draws with this camera.
 pub fn join(added: On<Add, SpeakerCamera>, mut commands: Commands) {
     commands
         .entity(added.entity)

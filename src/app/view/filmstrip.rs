@@ -1,7 +1,7 @@
 //! Filmstrip of the timeline: thumbnails of the film at regular t, including every design.
 //!
 //! The thumbnails are drawn in the background whenever the film or its colours change, but only
-//! after the film has been measured: users wait for its check, not for thumbnails.
+//! after the automatic check of the film: users wait for the check, not for thumbnails.
 
 use std::sync::Arc;
 
@@ -79,7 +79,7 @@ fn names(sequence: &Sequence) -> impl Iterator<Item = &str> {
     designs.map(|design| design.name.as_str())
 }
 
-/// Keeps the thumbnails in step with the film on the stage.
+/// Draws the thumbnails again in the background when the film or its colours have changed.
 pub fn follow(
     session: Res<Session>,
     measures: Res<StageMeasures>,
@@ -118,7 +118,7 @@ pub fn follow(
     });
 }
 
-/// Draws a film at the given times, side by side, each frame in a cell of `cell_px` pixels. The
+/// Draws a film at the given values of t, side by side, each in a cell of `cell_px` pixels. The
 /// image has straight alpha on a transparent background.
 ///
 /// # Errors

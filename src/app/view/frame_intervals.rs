@@ -5,7 +5,7 @@ use bevy::prelude::{Real, Res, ResMut, Resource, Time};
 
 use crate::stage::DurationHistory;
 
-/// Durations from one frame to the next.
+/// Durations from one frame of the window to the next.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct FrameIntervals(pub DurationHistory);
 

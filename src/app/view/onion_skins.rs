@@ -19,7 +19,7 @@ const MAX_SKINS: usize = 12;
 pub struct OnionSkin {
     /// Value of t at which the film has this outline.
     pub t: f64,
-    /// Closed outlines.
+    /// Closed outlines, each as a list of vertices.
     pub rings: Vec<Vec<DVec2>>,
     /// Bars of a truss, by their ends; empty for other content.
     pub bars: Vec<[DVec2; 2]>,
@@ -76,7 +76,7 @@ pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut onion: R
     onion.of = requested;
 }
 
-/// Outlines of the film at the given times.
+/// Computes the skin of the film at each of the given values of t.
 fn skins(sequence: &Sequence, times: &[f64]) -> Vec<OnionSkin> {
     let mut frame = sequence.frame(0.0);
     let skin = |&t: &f64| {

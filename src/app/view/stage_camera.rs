@@ -42,17 +42,17 @@ pub fn apply(
     }
 }
 
-/// State that [`fit`] carries from frame to frame.
+/// State of [`fit`] that lasts from one frame of the window to the next.
 #[derive(SystemParam)]
 pub struct FitState<'s> {
     /// Values at the last fit: the fitted bounds in the plane, the size of the stage area, and the
-    /// view of the film pane.
+    /// zoom and pan of the film pane.
     last: Local<'s, Option<(Bounds, Vec2, PaneView)>>,
-    /// View of the stage, while the match editor replaces it.
+    /// View of the stage before the film pane replaced it; `None` while the film pane is closed.
     stage_view: Local<'s, Option<StageView>>,
 }
 
-/// Fits the view again when the stage area, the transition or the frame of the export changes.
+/// Fits the view again when the stage area, the transition or the rectangle of the export changes.
 pub fn fit(
     session: Res<Session>,
     editor: Res<MatchEditor>,
@@ -76,7 +76,8 @@ pub fn fit(
         *state.last = None;
     }
     if !auto_fit.0 && pane.is_none() {
-        // Reset, so that the next fit happens even if nothing has changed since the last one.
+        // The last fit is forgotten, so that the next fit happens even if nothing has changed
+        // since.
         *state.last = None;
         return;
     }
@@ -111,8 +112,8 @@ pub fn place_camera(
             (old.physical_position, old.physical_size) == (new.physical_position, new.physical_size)
         })
     };
-    // Writing to the camera marks it as changed, and Bevy then looks up its targets again, so an
-    // unchanged viewport is not written.
+    // An unchanged viewport is not written: writing would mark the camera as changed, and Bevy
+    // would look up the camera's render targets again.
     if !camera.viewport.as_ref().is_some_and(is_same) {
         camera.viewport = viewport;
     }
@@ -165,9 +166,9 @@ pub fn place_comparison_camera(
     *comparison_projection = projection.clone();
 }
 
-/// Viewport of an area, clipped to the window, because the window may be smaller than the area
-/// while it is being resized. If nothing is left, returns `None`, with which the camera fills the
-/// whole window.
+/// Returns the viewport of an area, clipped to the window: the window may be smaller than the area
+/// while it is being resized. Returns `None` if nothing of the area is in the window; the camera
+/// then fills the whole window.
 fn viewport(area: StageArea, window: &Window) -> Option<Viewport> {
     let scale = window.scale_factor();
     let window_px = window.physical_size();

@@ -6,11 +6,11 @@ use std::time::Instant;
 
 use crate::work::progress::Progress;
 
-/// Duration of each stage in seconds, by the name of the stage.
+/// Duration of each progress stage in seconds, by the name of the stage.
 pub(in crate::cli) type StageDurations = BTreeMap<&'static str, f64>;
 
-/// Stages that [`triangulating`] does not count: the preparation of rigid parts once they have a
-/// mesh, and the computation of distance fields. (Matching is not counted either.)
+/// Progress stages that [`triangulating`] does not count: the preparation of rigid parts once they
+/// have a mesh, and the computation of distance fields. (Matching is not counted either.)
 const NOT_TRIANGULATING: [&str; 5] = [
     "subdividing",
     "decomposing",
@@ -29,17 +29,17 @@ pub(in crate::cli) struct StageClock<'a> {
     timer: Mutex<StageTimer>,
 }
 
-/// Current stage and the durations so far.
+/// Current progress stage and the durations so far.
 #[derive(Default)]
 struct StageTimer {
-    /// Name of the current stage and the moment of its first report; `None` before the first stage
-    /// and after [`StageClock::stages`].
+    /// Name of the current progress stage and the moment of its first report; `None` before the
+    /// first stage and after [`StageClock::stages`].
     current: Option<(&'static str, Instant)>,
     stages: StageDurations,
 }
 
 impl StageTimer {
-    /// Ends the current stage and starts `stage`, if there is one.
+    /// Ends the current progress stage and starts `stage`, if there is one.
     fn change_to(&mut self, stage: Option<&'static str>) {
         let now = Instant::now();
         let previous = std::mem::replace(&mut self.current, stage.map(|stage| (stage, now)));
@@ -58,7 +58,7 @@ impl<'a> StageClock<'a> {
         }
     }
 
-    /// Ends the current stage and returns the durations of all stages since the last call.
+    /// Ends the current progress stage and returns the durations of all stages since the last call.
     pub fn stages(&self) -> StageDurations {
         // The data is complete whenever the lock is free, even after a panic.
         let mut timer = self.timer.lock().unwrap_or_else(PoisonError::into_inner);
@@ -83,14 +83,14 @@ impl Progress for StageClock<'_> {
     }
 }
 
-/// Returns the duration of the stages that match boundaries and parts, in seconds.
+/// Returns the duration of the progress stages that match boundaries and parts, in seconds.
 pub(super) fn matching(stages: &StageDurations) -> f64 {
     total(stages, is_matching)
 }
 
-/// Returns the duration of all stages that are neither matching nor in [`NOT_TRIANGULATING`], in
-/// seconds. For outlines this is mostly the common triangulation and its improvement; reading the
-/// designs is included.
+/// Returns the duration of all progress stages that are neither matching nor in
+/// [`NOT_TRIANGULATING`], in seconds. For outlines this is mostly the common triangulation and its
+/// improvement; reading the designs is included.
 pub(super) fn triangulating(stages: &StageDurations) -> f64 {
     total(stages, |stage| {
         !is_matching(stage) && !NOT_TRIANGULATING.contains(&stage)
@@ -101,7 +101,7 @@ fn is_matching(stage: &str) -> bool {
     stage.starts_with("match") || stage.starts_with("pairing")
 }
 
-/// Returns the sum of the durations of the selected stages, in seconds.
+/// Returns the sum of the durations of the selected progress stages, in seconds.
 fn total(stages: &StageDurations, is_selected: impl Fn(&str) -> bool) -> f64 {
     let selected = stages.iter().filter(|(stage, _)| is_selected(stage));
     // `sum` would return -0.0 for no stages, which prints as "-0".

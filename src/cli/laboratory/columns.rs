@@ -53,7 +53,8 @@ enum ColumnUnit {
 }
 
 impl ColumnUnit {
-    /// Returns the endings that name the unit: of the heading, and of the label in the summary.
+    /// Returns the two endings that name the unit: that of the heading, and that of the label in
+    /// the summary.
     const fn suffixes(self) -> [&'static str; 2] {
         match self {
             Self::Pure => ["", ""],
@@ -67,7 +68,7 @@ impl ColumnUnit {
 }
 
 /// Function that reads the value of a column from the report on a pair. It returns `None` if the
-/// pair has no such value, such as faces in a blend of fields.
+/// pair has no such value, for example the number of faces of a blend of fields.
 #[derive(Clone, Copy)]
 enum ColumnReader {
     Number(fn(&PairReport) -> Option<f64>),

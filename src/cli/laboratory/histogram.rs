@@ -19,10 +19,10 @@ const MAX_BAR_LENGTH: usize = 40;
 #[derive(Debug, PartialEq, Serialize)]
 pub(in crate::cli) struct Histogram {
     /// Edges of the bins, ascending; one more than there are bins. The first and the last bin may
-    /// be wider than a step, so that they contain all values. The last edge may be infinite.
+    /// be wider than the others, so that they contain all values. The last edge may be infinite.
     pub edges: Vec<f64>,
-    /// Number of values in each bin: at least its lower edge and less than its upper edge. An
-    /// infinite last edge is included.
+    /// Number of values in each bin. A bin includes its lower edge but not its upper edge, unless
+    /// that edge is infinite.
     pub counts: Vec<usize>,
 }
 
@@ -73,8 +73,9 @@ impl Histogram {
     }
 }
 
-/// Returns the range of at most [`MAX_STEPS`] consecutive steps that contains the most values: its
-/// first and its last step with a value. `steps` holds the step of each value, in ascending order.
+/// Returns the range of at most [`MAX_STEPS`] consecutive bins that contains the most values: the
+/// index of its first and of its last bin with a value. `steps` holds the index of each value's
+/// bin, in ascending order.
 fn fullest(steps: &[i32]) -> Option<(i32, i32)> {
     let range_from = |start: usize| {
         let last = steps[start] + MAX_STEPS as i32 - 1;
@@ -86,16 +87,18 @@ fn fullest(steps: &[i32]) -> Option<(i32, i32)> {
     Some((steps[start], steps[end - 1]))
 }
 
-/// Returns the lower edge of a step. Step 0 starts at 1, step 5 at 10, step -5 at 0.1.
+/// Returns the lower edge of the bin with the index `step`. Bin 0 starts at 1, bin 5 at 10, bin -5
+/// at 0.1.
 fn edge(step: i32) -> f64 {
     let (series, power) = (SERIES[step.rem_euclid(5) as usize], step.div_euclid(5));
     // Parsed from text, because a product with a power of ten would be rounded.
     format!("{series}e{power}").parse().unwrap_or_default()
 }
 
-/// Returns the step that contains a value: the last one whose lower edge is at most `value`.
+/// Returns the index of the bin that contains a value: the last bin whose lower edge is at most
+/// `value`.
 fn step_below(value: f64) -> i32 {
-    // The estimate is wrong by at most one step, because the series is rounded.
+    // The estimate is wrong by at most one bin, because the series is rounded.
     let near = (5.0 * value.log10()).floor() as i32;
     (near - 1..=near + 1)
         .rev()
@@ -135,7 +138,7 @@ mod tests {
         let with_infinity = Histogram::of(&[1.0, 2.0, f64::INFINITY]).expect("bins");
         assert_eq!(with_infinity.counts, [1, 1, 1]);
         assert_eq!(with_infinity.edges, [1.0, 1.6, 2.5, f64::INFINITY]);
-        // Three values share a bin of one step; the fourth has a wide bin.
+        // Three values share a bin of the usual width; the fourth has a wide bin.
         let with_gap = Histogram::of(&[1.0, 1.1, 1.2, 1e9]).expect("bins");
         assert_eq!(with_gap.counts, [3, 1]);
         assert_eq!(with_gap.edges, [1.0, 1.6, 1.6e9]);

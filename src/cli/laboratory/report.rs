@@ -124,26 +124,27 @@ pub(in crate::cli) struct DesignReport {
     pub notes: Vec<String>,
 }
 
-/// Durations in seconds.
+/// Measured durations, in seconds.
 #[derive(Debug, Serialize)]
 pub(in crate::cli) struct ReportSeconds {
-    /// Reading and importing the designs.
+    /// Duration of reading and importing the designs.
     pub import: f64,
-    /// Matching boundaries and parts.
+    /// Duration of matching boundaries and parts.
     #[serde(rename = "match")]
     pub matching: f64,
-    /// Stages that are neither matching nor listed in `clock`: for outlines, mostly the common
-    /// triangulation. Includes reading the designs.
+    /// Duration of all other stages of building, except the preparation of rigid parts and of
+    /// distance fields. For outlines, this is mostly the common triangulation. Reading the designs
+    /// is included.
     pub triangulate: f64,
-    /// Building the transition, in total.
+    /// Total duration of building the transition.
     pub build: f64,
-    /// Moving a frame to another t: the median of several times.
+    /// Median duration of moving a frame to another t.
     pub frame: f64,
-    /// Computing the polygons of a frame: the median of several times.
+    /// Median duration of computing the polygons of a frame.
     pub figure: f64,
-    /// Measuring the transition, without the proof.
+    /// Duration of measuring the transition, without the proof.
     pub measure: f64,
-    /// Duration of each stage of building, by its name.
+    /// Duration of each progress stage of building, by the name of the stage.
     pub stages: StageDurations,
 }
 
@@ -154,7 +155,7 @@ pub(in crate::cli) struct ProofReport {
     pub words: String,
     /// Duration of recording the film and proving it, in seconds.
     pub seconds: f64,
-    /// `None` if the film could not be recorded.
+    /// The proof itself; `None` if the film could not be recorded.
     #[serde(flatten)]
     pub proved: Option<TransitionProof>,
 }
@@ -224,7 +225,7 @@ impl VerdictReport {
 
 impl PairReport {
     /// Measures a transition at `samples` evenly spaced t. `stages` holds the durations of the
-    /// stages of building.
+    /// progress stages of building.
     ///
     /// # Errors
     /// The work was cancelled.

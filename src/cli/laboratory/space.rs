@@ -26,10 +26,10 @@ const NAME_WIDTH: usize = 28;
 pub(in crate::cli) struct SpaceMeasurement {
     #[serde(flatten)]
     report: SpaceReport,
-    /// Time to build the space: matching, triangulation and factorisation, or distance fields.
+    /// Measured time to build the space: matching, triangulation and factorisation, or distance
+    /// fields.
     build_seconds: f64,
-    /// Time to compute one blend from its weights, as outlines or as a picture: the median of
-    /// several times.
+    /// Median time to compute one blend from its weights, as outlines or as a picture.
     blend_seconds: f64,
     /// Whether the space blends pictures. They have no folds, crossings or areas to report.
     are_pictures: bool,
@@ -103,7 +103,7 @@ impl SpaceMeasurement {
     /// Adds the measures of the blend with equal weights and of the blends spread over all weights.
     fn add_blend_statistics(&self, lines: &mut NumberLines) {
         let report = &self.report;
-        // These rows have no difference between two designs.
+        // In these rows, the column with the difference between two designs is empty.
         let empty = || std::iter::once(String::new());
         lines.cells(
             ("equal weights", NAME_WIDTH),
@@ -143,7 +143,7 @@ fn median_blend_time(space: &DesignSpace) -> Duration {
     };
     let mut times: Vec<Duration> = (0..TIMED_BLENDS)
         .map(|k| {
-            // Successive blends favour different designs, so no blend follows itself.
+            // Successive blends favour different designs, so no blend equals the previous one.
             let mut weights = vec![0.5 / count as f64; count];
             weights[k % count] += 0.5;
             let start = Instant::now();

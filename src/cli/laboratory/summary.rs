@@ -31,7 +31,7 @@ pub(in crate::cli) struct PairSummary {
     pub with_folds: usize,
     /// Number of pairs whose boundary crosses itself at a sampled t.
     pub with_crossings: usize,
-    /// Number of pairs with more pieces or holes at a sampled t than at t = 0 and t = 1.
+    /// Number of pairs with more connected regions or holes at a sampled t than at t = 0 and t = 1.
     pub with_tears: usize,
     /// Statistics of the main measures, in the order of the columns.
     pub measures: Vec<MeasuredPairs>,

@@ -17,7 +17,7 @@ use crate::io::sanitize::SanitizedLine;
 pub(super) struct PairTable {
     /// Headings of the columns.
     pub header: Vec<String>,
-    /// Rows without those that have only empty cells.
+    /// Rows of the file; rows with only empty cells are left out.
     pub rows: Vec<PairTableRow>,
 }
 
@@ -110,7 +110,8 @@ fn parse(bytes: &[u8], folder: &Path) -> Result<PairTable, PairTableError> {
     Ok(PairTable { header, rows })
 }
 
-/// Returns the headings of the table, or an error if they cannot be the start of a report.
+/// Returns the headings of the table. A heading that is not text, occurs twice or is used by the
+/// report itself is an error.
 fn parse_header(record: &csv::ByteRecord) -> Result<Vec<String>, PairTableError> {
     let name = |cell: &[u8]| {
         let text = std::str::from_utf8(cell).ok().filter(|t| !t.contains('\0'));
@@ -171,7 +172,8 @@ fn parse_row(
     folder: &Path,
 ) -> PairTableRow {
     let mut cells: Vec<Vec<u8>> = record.iter().take(width).map(<[u8]>::to_vec).collect();
-    // In the report, the measures follow, and must be in the columns with their headings.
+    // All rows get `width` cells, so that the measures, which follow in the report, stay below
+    // their headings.
     cells.resize(width, Vec::new());
     let [source, target] = pair_columns;
     let parse_pair = || {

@@ -184,15 +184,15 @@ fn film(report: &PairReport, lines: &mut NumberLines) {
     }
 }
 
-/// Returns the numbers of extra pieces and holes of a field blend; `None` for other content, whose
-/// pieces and holes do not change.
+/// Returns the numbers of extra connected regions and holes of a field blend; `None` for other
+/// content, in which these numbers do not change.
 fn topology(report: &PairReport) -> Option<String> {
     let (pieces, holes) = report.film.pieces_excess.zip(report.film.holes_excess)?;
     (report.content == ContentKind::Field)
         .then(|| format!("extra pieces {pieces}, extra holes {holes}"))
 }
 
-/// Returns travel and acceleration of the vertices.
+/// Formats the travel and the acceleration of the vertices.
 fn motion(motion: &MotionReport) -> String {
     format!(
         "mean travel {}, maximum {}; acceleration up to {} (diameters, without rigid motion)",
@@ -224,8 +224,8 @@ fn samples(samples: &[FilmSample], lines: &mut NumberLines) {
     }
 }
 
-/// Adds two lines with times in milliseconds: of building, and of frames and measuring. Stages
-/// that took no time are left out.
+/// Adds two lines with times in milliseconds: of building, and of frames and measuring. Progress
+/// stages that took no time are left out.
 fn times(report: &PairReport, lines: &mut NumberLines) {
     let seconds = &report.seconds;
     let building = [

@@ -38,7 +38,8 @@ pub(super) fn shared_rings(
             return Err(k);
         }
     }
-    // Any match can serve as the base, because the sources of all matches are the rings of the hub.
+    // The rings of any one match can be used to go through the rings of the hub, because the hub is
+    // the source of every match.
     let Some((base, first)) = matches
         .iter()
         .enumerate()
@@ -46,11 +47,11 @@ pub(super) fn shared_rings(
     else {
         return Err(hub);
     };
-    // Each match lists pieces and rings in its own order. Rings are therefore looked up by the
-    // points of the hub on them.
+    // Each match lists pieces and rings in its own order. A ring is therefore looked up by any of
+    // the hub's points on it.
     let lookups: Vec<_> = matches.iter().map(|m| m.map(RingLookup::of)).collect();
-    // All matches are one to one and have the hub as the source, so their pieces must have the same
-    // numbers of rings.
+    // Every match pairs all rings of the hub one to one, so all matches must list the same numbers
+    // of rings per piece.
     let counts = |m: &RegionMatch| {
         let mut rings: Vec<usize> = m.pieces.iter().map(|piece| piece.rings.len()).collect();
         rings.sort_unstable();
@@ -112,7 +113,7 @@ fn key(p: DVec2) -> [u64; 2] {
     (p + 0.0).to_array().map(f64::to_bits)
 }
 
-/// Rings of a match, looked up by the points of the hub on them.
+/// Rings of a match, indexed by the points of the hub that lie on them.
 struct RingLookup<'a> {
     rings: HashMap<[u64; 2], &'a RingMatch>,
 }
@@ -162,7 +163,7 @@ fn merged_rings(
 ) -> Result<Vec<Vec<DVec2>>, usize> {
     let corners = shared_corners(lists)?;
     let mut rings = vec![Vec::new(); lists.len()];
-    // Returns the index of a corner of the hub in the match's list of points.
+    // Returns the index of a corner of the hub in the list of points of a match.
     let index = |list: &RingMatch, corner: DVec2| {
         let is_it = |p: &DVec2| key(*p) == key(corner);
         list.source.iter().position(is_it)
@@ -188,8 +189,8 @@ fn merged_rings(
             let count = list.source.len();
             let first = corner_index[k];
             let mut cursor = first;
-            // All points of the match between this corner and the next one lie on the hub's edge
-            // between them.
+            // Between this corner and the next one, all points of the match lie on the hub's edge
+            // between the two corners.
             loop {
                 cursor = (cursor + 1) % count;
                 if key(list.source[cursor]) == key(next) {
@@ -236,7 +237,7 @@ fn shared_corners(lists: &[Option<&RingMatch>]) -> Result<Vec<DVec2>, usize> {
 }
 
 /// Appends the first corner of a hub edge and the points on that edge to the ring of every design.
-/// The second corner is left to the next edge.
+/// The second corner is appended with the next edge.
 ///
 /// For each design, `ends` contains the positions of both corners. Points of different designs are
 /// merged if their distance is at most `merge_share` times the edge's length.
@@ -272,9 +273,9 @@ fn append_edge(
         let mut last = (0.0, begin);
         for (i, &share) in shares.iter().enumerate() {
             let place = own_places[i].unwrap_or_else(|| {
-                // This design has no point here. Its position is interpolated between the previous
-                // point of the ring and the next point that the design's own match adds on this
-                // edge.
+                // This design has no point in the cluster. A position is interpolated between the
+                // previous point of the ring and the next point that the design's own match adds on
+                // this edge.
                 let after = (i + 1..shares.len()).find_map(|j| Some((shares[j], own_places[j]?)));
                 let (to, place) = after.unwrap_or((1.0, end));
                 let span = to - last.0;

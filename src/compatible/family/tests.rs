@@ -41,7 +41,7 @@ fn family_of(designs: &[Regions], hub: usize) -> Result<CompatibleFamily, Family
 }
 
 /// Checks that all faces are positive in all designs, that all corners of the designs are vertices,
-/// and that all boundary rings remain.
+/// and that the mesh has one boundary loop for each ring of a design.
 fn assert_family(family: &CompatibleFamily, designs: &[Regions]) {
     for (places, design) in family.embeddings().iter().zip(designs) {
         for face in family.faces().iter() {

@@ -19,9 +19,9 @@ const STRETCHES: [usize; 4] = [7, 5, 4, 3];
 /// largest distance of a vertex from this mean. The largest square comes first, because it gives
 /// good angles.
 const REACHES: [f64; 5] = [0.6, 0.3, 0.12, 0.04, 0.01];
-/// Factor by which a new point is moved away from the middle of its stretch for a second check of
-/// its sight lines (heuristic). This leaves room between parts of the front that approach each
-/// other.
+/// A new point is used only if the point this many times as far from the middle of its stretch also
+/// sees both ends of the stretch (heuristic: this leaves room where stretches of the front approach
+/// each other).
 const CLEARANCE: f64 = 1.5;
 /// Maximum [`shape`](face_cost::shape) term of a corner triangle that is cut off (heuristic). The
 /// term is 1 for an equilateral triangle and 3 for a right triangle with legs 1 and 5.
@@ -36,7 +36,7 @@ pub(super) struct AdvancingFront {
     pub(super) faces: Vec<[u32; 3]>,
     /// Rings of the front, as vertex indices in order.
     pub(super) rings: Vec<Vec<u32>>,
-    /// Edges of the front in each design, for queries of nearby edges.
+    /// For each design, a grid that finds the edges of the front near a line segment.
     near: [EdgeGrid; 2],
 }
 
@@ -117,14 +117,15 @@ impl<'a> FrontRing<'a> {
         }
     }
 
-    /// Advances once around the ring, from position `turn` modulo 3.
+    /// Makes one pass around the ring and takes every step that fits. `turn` is the number of
+    /// earlier passes; the pass starts at position `turn` modulo 3.
     pub(super) fn advance(
         &mut self,
         turn: usize,
         progress: &dyn Progress,
     ) -> Result<(), Cancelled> {
-        // The start changes from turn to turn. From the same start, a turn would only try the
-        // stretches again that did not fit in the previous turn.
+        // Each pass starts one position later. From the same start, a pass would try again only the
+        // stretches that did not fit in the previous pass.
         let len = self.len();
         let mut at = turn % 3;
         let end = at + len;
@@ -170,9 +171,8 @@ impl<'a> FrontRing<'a> {
         if self.len() < 4 || self.has_frozen(&stretch) {
             return false;
         }
-        // In each design the corner triangle must be positive, well shaped and empty. At both of
-        // its ends, the side that replaces the corner must run into the region that is left to
-        // triangulate.
+        // In each design the corner triangle must be positive, well shaped and empty. The edge that
+        // replaces the corner must, from both of its ends, run into the region left to triangulate.
         let fits = (0..2).all(|d| {
             let corners = stretch.map(|v| self.place(d, v));
             face_cost::is_positive(corners)
@@ -246,7 +246,7 @@ impl<'a> FrontRing<'a> {
     fn sides(&self, d: usize, at: usize, k: usize) -> Vec<[DVec2; 2]> {
         let n = self.len();
         let place = |i: usize| self.place(d, self.vertex(i));
-        // Cutting off a corner (k = 2) adds no vertex, so nothing has to see the stretch.
+        // Cutting off a corner (k = 2) adds no vertex, so the edges of the stretch are not needed.
         let mut sides: Vec<[DVec2; 2]> = (0..k)
             .filter(|_| k > 2)
             .map(|i| [place(at + i), place(at + i + 1)])
@@ -262,8 +262,8 @@ impl<'a> FrontRing<'a> {
         sides
     }
 
-    /// Returns a point that sees the whole stretch in the design `d`, with clearance; `None` if
-    /// none is found.
+    /// Returns a point that sees the whole stretch in the design `d` and satisfies [`CLEARANCE`];
+    /// `None` if none is found.
     fn common_point(&self, d: usize, at: usize, stretch: &[u32]) -> Option<DVec2> {
         let places: Vec<DVec2> = stretch.iter().map(|&v| self.place(d, v)).collect();
         let middle = places.iter().sum::<DVec2>() / places.len() as f64;
@@ -277,8 +277,9 @@ impl<'a> FrontRing<'a> {
         // across the whole piece.
         REACHES.into_iter().find_map(|reach| {
             let point = centre_of_kernel(middle, reach * extent, &sides)?;
-            // The first and the last sight line bound the fan. If no front edge touches them, the
-            // only thing that can still lie inside the fan is a whole ring of the front.
+            // The sight lines from the first and the last vertex of the stretch bound the fan of
+            // new faces. If no front edge touches them, the only thing that can still lie inside
+            // the fan is a whole ring of the front.
             let sees = |p: DVec2| {
                 self.is_free(d, stretch[0], p, &[]) && self.is_free(d, stretch[last], p, &[])
             };
@@ -295,8 +296,8 @@ impl<'a> FrontRing<'a> {
         })
     }
 
-    /// Returns whether the segment from the front vertex `from` to the point `to` touches no edge
-    /// of the front. Edges at `from` or at one of the vertices `others` do not count.
+    /// Returns whether the line segment from the front vertex `from` to the point `to` touches no
+    /// edge of the front. Edges at `from` or at one of the vertices `others` do not count.
     fn is_free(&self, d: usize, from: u32, to: DVec2, others: &[u32]) -> bool {
         let segment = [self.place(d, from), to];
         !self.coarse.near[d].any_edge_near(segment, |edge| {

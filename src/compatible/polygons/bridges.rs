@@ -1,5 +1,6 @@
-//! Guaranteed base mesh for a piece with holes. The piece is cut open along corresponding bridges
-//! until it is a disc. The disc is triangulated, and the mesh is welded along the bridges.
+//! Base mesh of a piece with holes: a triangulation in both designs that always exists in exact
+//! arithmetic. The piece is cut open along corresponding bridges until it is a disc. The disc is
+//! triangulated, and the mesh is welded along the bridges.
 //!
 //! A bridge joins the outer boundary to a hole. In one design it is a straight diagonal. In the
 //! other design it runs through a triangulation of the piece, from edge midpoint to edge midpoint;
@@ -41,8 +42,8 @@ struct Bridge {
     inner: Vec<[DVec2; 2]>,
 }
 
-/// Returns the guaranteed base mesh of a piece. It is valid in exact arithmetic; rounding may
-/// flatten faces, which the caller checks.
+/// Returns the base mesh of a piece. It is valid in exact arithmetic; rounding may flatten faces,
+/// which the caller checks.
 pub(super) fn bridged_base(
     source: &BoundaryRings,
     target: &BoundaryRings,
@@ -169,12 +170,13 @@ impl PieceLoops {
         inner.iter().enumerate().map(place).collect()
     }
 
-    /// Merges the loop at the far end of a bridge into the first loop. The merged loop runs along
+    /// Merges the loop at the second end of a bridge into the first loop. The merged loop passes
     /// both banks of the bridge. `first_vertex` is the vertex index of the bridge's first inner
     /// point.
     fn merge(&mut self, bridge: &Bridge, first_vertex: u32) {
         let [a, mut b] = bridge.ends;
-        // The corners are numbered through all loops, so the loop of the far end has to be found.
+        // Corners are numbered through all loops, so the loop that contains corner `b` is searched
+        // for.
         let mut loop_index = 0;
         while b >= self.0[loop_index].len() {
             b -= self.0[loop_index].len();
@@ -212,8 +214,9 @@ struct MidpointGraph {
     points: Vec<DVec2>,
 }
 
-/// For each face that the search has reached: the previous face on the path, and the side of the
-/// previous face through which the path enters this face. `None` for the faces at the start corner.
+/// For each face that the search has reached: the face from which it was reached, and the index of
+/// the side that lies between the two in that earlier face. `None` for the faces at the start
+/// corner.
 type PredecessorMap = HashMap<usize, Option<(usize, usize)>>;
 
 impl MidpointGraph {

@@ -13,11 +13,12 @@ use crate::mesh::sides;
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
-/// Maximum number of vertices for which crossings are minimised (resource limit: the search is
-/// O(n³), with 10 million triangles per turn at this size). Larger polygons use their Delaunay
+/// Maximum number of vertices for which crossings are minimised (resource limit: each turn is a
+/// search in O(n³), over 10 million triangles at this size). Larger polygons use their Delaunay
 /// triangulations.
 const MAX_SEARCHED: usize = 400;
-/// Number of turns; in each turn one polygon adapts to the other (heuristic).
+/// Number of turns (heuristic). In each turn one polygon is triangulated again, to cross the
+/// triangulation of the other less.
 const TURNS: usize = 4;
 /// Shape cost of a flat triangle, the largest of all, in crossings (derived: there are fewer than
 /// [`MAX_SEARCHED`] triangles, so their shape costs add up to less than one crossing. Shape
@@ -25,7 +26,7 @@ const TURNS: usize = 4;
 const SHAPE_COST: f64 = 1e-3;
 /// Cost, in crossings, of a triangle that is flat up to rounding, such as one with all corners on a
 /// straight side (derived: more than the 158,000 crossings that are possible, so such triangles are
-/// used only if there is no other way. Crossings inside them would have no room).
+/// used only if there is no other way. Such a triangle has no room for crossings).
 const SLIVER_COST: f64 = 1e6;
 /// A triangle counts as flat up to rounding if its [`flatness`] differs from 1 by less than this
 /// (tolerance: it corresponds to a height of about 6e-8 of the base, the error of points on a side
@@ -113,14 +114,15 @@ impl InteriorChords {
         Ok(Self { n, inside })
     }
 
-    /// Returns whether the chord `i`–`j`, i < j, without its ends lies inside the polygon, or is
-    /// one of its edges.
+    /// Returns whether the chord `i`–`j`, i < j, lies inside the polygon except for its ends, or is
+    /// one of the polygon's edges.
     fn inside(&self, i: usize, j: usize) -> bool {
         self.inside[i * self.n + j]
     }
 }
 
-/// Returns whether the chord `i`–`j` without its ends lies inside the polygon and touches no edge.
+/// Returns whether the chord `i`–`j` lies inside the polygon except for its ends and touches no
+/// edge.
 fn is_inside(points: &[DVec2], i: usize, j: usize) -> bool {
     let n = points.len();
     let free_of = |k: usize| {
@@ -131,13 +133,14 @@ fn is_inside(points: &[DVec2], i: usize, j: usize) -> bool {
     in_cone(points, i, j) && in_cone(points, j, i) && (0..n).all(free_of)
 }
 
-/// Returns whether the chord `i`–`j` leaves the corner `i` strictly into the polygon.
+/// Returns whether the chord `i`–`j` starts at the corner `i` strictly towards the inside of the
+/// polygon.
 fn in_cone(points: &[DVec2], i: usize, j: usize) -> bool {
     let n = points.len();
     let (before, after) = (points[(i + n - 1) % n], points[(i + 1) % n]);
     let (a, b) = (points[i], points[j]);
-    // At a convex corner the chord must run between both edges. At a reflex corner it must avoid
-    // the outer cone.
+    // At a convex corner the chord must run between both edges. At a reflex corner it must not lie
+    // in the exterior angle.
     if orient2d(before, a, after) >= 0.0 {
         orient2d(a, b, before) > 0.0 && orient2d(b, a, after) > 0.0
     } else {
@@ -158,7 +161,8 @@ pub(super) fn diagonals(faces: &[[u32; 3]], n: usize) -> Vec<[u32; 2]> {
     edges
 }
 
-/// Returns the number of diagonals that the chord `i`–`j` crosses on a convex polygon.
+/// Returns the number of diagonals that cross the chord `i`–`j` if all are drawn on one convex
+/// polygon.
 fn crossings(diagonals: &[[u32; 2]], i: usize, j: usize) -> usize {
     let (i, j) = (i as u32, j as u32);
     diagonals.iter().filter(|d| interleave([i, j], **d)).count()
@@ -188,8 +192,8 @@ fn cheapest_triangulation(
             best[i * n + i + 1].0 = 0.0;
         }
     }
-    // Short chords come before long ones, so that the parts on both sides of an apex are already
-    // solved.
+    // Short chords come before long ones, so that the two parts of the polygon on both sides of a
+    // triangle are already solved.
     for length in 2..n {
         check_cancelled(progress)?;
         for i in 0..n - length {
@@ -242,8 +246,8 @@ fn collect(best: &[(f64, usize)], n: usize) -> Vec<[u32; 3]> {
     let mut faces = Vec::with_capacity(n - 2);
     let mut pending = vec![(0, n - 1)];
     while let Some((i, j)) = pending.pop() {
-        // A part without a triangulation is skipped. The caller detects this by the number of
-        // faces.
+        // A part of the polygon without a triangulation is skipped. The caller detects this by the
+        // number of faces.
         if j - i < 2 || best[i * n + j].0 == f64::INFINITY {
             continue;
         }

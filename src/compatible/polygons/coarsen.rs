@@ -1,6 +1,6 @@
-//! Coarsening: replaces the boundary of a piece by one with fewer points before the guaranteed base
-//! mesh is built. An advancing front starts on the boundary and moves inwards in both designs at
-//! once.
+//! Coarsening: replaces the boundary of a piece by one with fewer points before the base mesh is
+//! built ([`super::bridges`]). An advancing front starts on the boundary and moves inwards in both
+//! designs at once.
 //!
 //! A stretch of the front is replaced by two edges to a new point if, in each design, a point
 //! exists that sees the whole stretch; the triangles in between become faces of the mesh. A corner
@@ -21,7 +21,8 @@ const MIN_GAIN: f64 = 0.02;
 /// less than half).
 const MAX_TURNS: usize = 40;
 
-/// Moves the front inwards until it has at most `max_size` points or a turn removes too few.
+/// Moves the front inwards until it has at most `max_size` points, or until a turn removes too few
+/// points.
 pub(super) fn coarsen(
     source: &BoundaryRings,
     target: &BoundaryRings,

@@ -1,4 +1,5 @@
-//! Uniform grid that finds the front edges near a segment while edges are added and removed.
+//! Uniform grid that finds the edges of the advancing front near a line segment. Edges can be added
+//! and removed.
 
 use crate::geometry::{Bounds, DVec2};
 
@@ -44,13 +45,13 @@ impl EdgeGrid {
         }
     }
 
-    /// Returns the indices of the cells that the bounding box of a segment touches. Parts of the
-    /// box outside the grid belong to the outermost cells.
+    /// Returns the indices of the cells that the bounding box of a line segment touches. Parts of
+    /// the box outside the grid belong to the outermost cells.
     fn cells(&self, [a, b]: [DVec2; 2]) -> impl Iterator<Item = usize> + use<> {
         let at = |p: DVec2| {
             let [x, y] = ((p - self.origin) / self.cell_size).to_array();
-            // The cast saturates: negative numbers become 0. NaN, which occurs if all points
-            // coincide, becomes 0 too.
+            // The cast saturates: negative numbers become 0. If all points coincide, the numbers
+            // are NaN, which becomes 0 too.
             [
                 (x as usize).min(self.columns - 1),
                 (y as usize).min(self.rows - 1),
@@ -75,9 +76,9 @@ impl EdgeGrid {
         }
     }
 
-    /// Returns whether `is` holds for at least one edge near a segment. An edge is near if its
+    /// Returns whether `is` holds for at least one edge near a line segment. An edge is near if its
     /// bounding box touches a cell that the segment's bounding box touches. This is only a coarse
-    /// filter, so `is` must make the exact test. Some edges are tested more than once.
+    /// filter, so `is` must make the exact test. `is` may be called several times for one edge.
     pub(super) fn any_edge_near(&self, segment: [DVec2; 2], is: impl Fn(GridEdge) -> bool) -> bool {
         let mut cells = self.cells(segment);
         cells.any(|cell| self.edges_in_cell[cell].iter().any(|&edge| is(edge)))

@@ -28,15 +28,15 @@ fn ring_name(ring: usize) -> String {
     }
 }
 
-/// Reason why a piece has no compatible triangulation in two designs. Fields count from 0 unless
-/// stated otherwise, messages from 1.
+/// Reason why a piece has no compatible triangulation in two designs. Indices start at 0 in fields
+/// unless stated otherwise, and at 1 in messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PieceMeshError {
     /// No boundary ring is given.
     #[error("there is no outline; give at least one ring of points")]
     NoOutline,
-    /// The source and the target have these different numbers of boundary rings.
+    /// Source and target have different numbers of boundary rings. The field contains both numbers.
     #[error("the source has {} boundary rings and the target {}; close or cut open the unmatched holes", .0[0], .0[1])]
     RingCounts([usize; 2]),
     /// A ring has different numbers of points in the two designs.
@@ -65,8 +65,8 @@ pub enum PieceMeshError {
         /// Index of the point in its ring.
         vertex: usize,
     },
-    /// In one design two boundary edges touch or cross, or two points coincide, other than along a
-    /// slit.
+    /// In one design two boundary edges touch or cross, or two points coincide. Only the two banks
+    /// of a slit may do so.
     #[error("outlines of the {side} touch or cross {}; move them apart there, or choose another method", ApproxPoint(*place))]
     NotSimple {
         /// Design in which the edges touch or cross.
@@ -106,7 +106,7 @@ pub enum PieceMeshError {
     NotTriangulated {
         /// Design whose rings cannot be triangulated.
         side: Side,
-        /// The shortest edge of its rings, which is the likeliest cause.
+        /// Shortest boundary edge of that design, which is the likeliest cause.
         shortest: PieceEdge,
         /// Position at which the shortest edge starts.
         place: DVec2,
@@ -118,8 +118,8 @@ pub enum PieceMeshError {
         "no cut from the outline to a hole is possible in both designs; thicken the walls between them, or leave the hole out"
     )]
     NoBridge,
-    /// A polygon from which the guaranteed base mesh is built could not be triangulated in one
-    /// design.
+    /// In one design, a polygon could not be triangulated while the base mesh was built, which is
+    /// done if simpler methods fail.
     #[error(
         "the {side} cannot be triangulated ({error}): part of it is thinner than floating-point precision; thicken its thinnest part, or move the match there"
     )]
@@ -129,18 +129,19 @@ pub enum PieceMeshError {
         /// Error that the triangulation returned.
         error: TriangulationError,
     },
-    /// Because of rounding, faces of the guaranteed base mesh are flat or folded in one design.
+    /// Because of rounding, faces of the base mesh, which is built if simpler methods fail, are
+    /// flat or folded in one design.
     #[error("{} without area in the {side}, {}: the outline is thinner there than floating-point precision; thicken it, or move the match there", if *faces == 1 { "a common face is".to_owned() } else { format!("{faces} common faces are") }, ApproxPoint(*place))]
     Folded {
         /// Design in which the faces are flat or folded.
         side: Side,
         /// Number of faces that are flat or folded.
         faces: usize,
-        /// Centroid of the first of these faces.
+        /// Centroid of the first flat or folded face.
         place: DVec2,
     },
-    /// The mesh is valid in the coordinates in which it was computed, but rounding to the designs'
-    /// own coordinates made it invalid.
+    /// The mesh is valid in the scaled coordinates in which it was computed, but rounding to the
+    /// designs' own coordinates made it invalid.
     #[error(
         "the common triangulation is not valid in the designs' own coordinates: {0}; or scale both designs to a moderate size"
     )]
@@ -151,7 +152,7 @@ pub enum PieceMeshError {
 }
 
 impl PieceMeshError {
-    /// Returns the error for the designs in exchanged order.
+    /// Returns the same error with source and target exchanged.
     pub(super) fn swapped(mut self) -> Self {
         if let Self::Base { side, .. } | Self::Folded { side, .. } = &mut self {
             *side = side.other();
@@ -159,7 +160,8 @@ impl PieceMeshError {
         self
     }
 
-    /// Returns the error for designs whose coordinates are multiplied by `by`, one factor for each.
+    /// Returns the same error for designs whose coordinates are multiplied by `by`, one factor for
+    /// each design.
     pub(super) fn scaled(mut self, by: [f64; 2]) -> Self {
         if let Self::Folded { side, place, .. }
         | Self::NotSimple { side, place, .. }

@@ -2,10 +2,10 @@
 //! good angles.
 //!
 //! The cost is symmetric in the two designs. It is the sum of three terms: the fourth power of the
-//! conformal distortion of the map between the designs (Hormann, Greiner 2000), the squared shape
-//! term of the face in each design (its squared edge lengths over its area), and a small term for
-//! the change of area. The fourth power gives the worst faces more weight than a square would. The
-//! cost tends to infinity as a face becomes flat in either design.
+//! conformal distortion between the designs (Hormann, Greiner 2000), the squared shape term of the
+//! face in each design (its squared edge lengths over its area), and a small term for the change of
+//! area. The fourth power gives the worst faces more weight than a square would. The cost tends to
+//! infinity as a face becomes flat in either design.
 
 use crate::geometry::{DVec2, orient2d, twice_signed_area};
 
@@ -22,7 +22,7 @@ pub(super) struct FaceCost {
     pub(super) gradients: [FaceCorners; 2],
 }
 
-/// Twice the signed area of a face in one design, in plain floating point.
+/// Twice the signed area of a face in one design, subject to rounding.
 pub(super) fn twice_area(p: FaceCorners) -> f64 {
     twice_signed_area(p[0], p[1], p[2])
 }
@@ -61,7 +61,8 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Opti
     let inverse = det.map(|det| 1.0 / det);
     let both = 0.5 * inverse[0] * inverse[1];
     // Conformal distortion: (σ₁/σ₂ + σ₂/σ₁) / 2 = |J|² / (2 det J), where J is the Jacobian of the
-    // map and det J = det[1] / det[0].
+    // affine map from the face in the source to the face in the target, and det J = det[1] /
+    // det[0].
     let conformal = dirichlet(products[0], e[1]) * both;
     let squared = conformal * conformal;
     let ratios = [det[0] * inverse[1], det[1] * inverse[0]];
@@ -97,8 +98,8 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Opti
 }
 
 /// For each design, the stiffness of each edge: the second derivative of the cost with respect to
-/// that edge, at fixed areas and with the other design fixed. A single stiffness may be negative,
-/// but the stiffness matrix of the face is positive semidefinite.
+/// that edge vector, at fixed areas and with the other design fixed. A single stiffness may be
+/// negative, but the stiffness matrix of the face is positive semidefinite.
 pub(super) fn stiffness(p: FaceCorners, q: FaceCorners) -> [[f64; 3]; 2] {
     let det = [p, q].map(twice_area);
     let e = [edges(p), edges(q)];
@@ -123,15 +124,16 @@ fn squares(e: FaceCorners) -> f64 {
     e.iter().map(|e| e.length_squared()).sum()
 }
 
-/// For each corner, the dot product of the two edges that leave it: the cotangent of its angle
-/// times twice the area.
+/// For each corner, the dot product of the two edge vectors that leave it. It is the cotangent of
+/// the corner's angle times twice the area of the face.
 fn products(e: FaceCorners) -> [f64; 3] {
     [-e[1].dot(e[2]), -e[2].dot(e[0]), -e[0].dot(e[1])]
 }
 
-/// Conformal energy |J|² / det J of the map of a face between two designs, times twice its area in
-/// one design and twice its area in the other. `products` is the result of [`products`] in one
-/// design, `e` contains the edges in the other; exchanging the designs gives the same number.
+/// Dirichlet energy of the affine map of a face between two designs: |J|² / det J, times twice the
+/// area of the face in one design, times twice its area in the other. `products` is the result of
+/// [`products`] in one design, `e` contains the edges in the other. Exchanging the designs gives
+/// the same number.
 fn dirichlet(products: [f64; 3], e: FaceCorners) -> f64 {
     (0..3).map(|k| products[k] * e[k].length_squared()).sum()
 }

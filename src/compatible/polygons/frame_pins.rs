@@ -29,10 +29,10 @@ const POINTS_ALONG: f64 = 24.0;
 const MIN_DISTANCE: f64 = 0.6;
 
 /// Narrowest spacing of points around a pin, as a fraction of the distance to the nearest other pin
-/// or border point (heuristic: it leaves one or two rows of points between the two).
+/// or border point (heuristic: this leaves one or two rows of points in between).
 const PIN_SPACING: f64 = 0.35;
-/// Growth of the spacing per unit of distance from a pin (heuristic: the spacing grows by less than
-/// a factor of two over two rows).
+/// Growth of the spacing per unit of distance from a pin (heuristic: from one row of points to the
+/// second row after it, the spacing grows by less than a factor of two).
 const GRADING: f64 = 0.35;
 
 /// Number of triangular lattices that fill the frame. Each has half the spacing of the one before,
@@ -40,7 +40,7 @@ const GRADING: f64 = 0.35;
 /// pins may be as close as 1/270 of the frame's longer side).
 const LATTICES: u32 = 6;
 
-/// Maximum number of points after filling, border and pins included (resource limit: each candidate
+/// Maximum number of points after filling, border and pins included (resource limit: each new point
 /// is compared with all earlier points).
 const MAX_POINTS: usize = 8_000;
 
@@ -55,7 +55,8 @@ const PROGRESS_AT_TARGET: f64 = 0.7;
 /// diameter (tolerance: too close to be placed by hand; faces between such pins would be slivers).
 const SAME_PIN: f64 = 1e-6;
 
-/// Reason why the frame has no mesh in which the pins are vertices. Messages count pins from 1.
+/// Reason why the frame has no mesh in which the pins are vertices. Pin indices start at 0 in
+/// fields and at 1 in messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FramePinsError {
@@ -85,8 +86,8 @@ pub enum FramePinsError {
     /// range.
     #[error(transparent)]
     Triangulation(#[from] TriangulationError),
-    /// The mesh is valid in the coordinates in which it was computed, but rounding to the frame's
-    /// own coordinates made it invalid.
+    /// The mesh is valid in the scaled coordinates in which it was computed, but rounding to the
+    /// frame's own coordinates made it invalid.
     #[error("the mesh around the pins is not valid in the frame's coordinates: {0}")]
     Mesh(#[from] CompatibleError),
     /// The work was cancelled.
@@ -152,8 +153,8 @@ impl CompatibleMesh {
         // The mesh moves in several steps, so that edges can be flipped between the steps.
         for step in 1..=STEPS {
             let along = f64::from(step) / f64::from(STEPS);
-            // `zip` ends with `fixed_targets`, so only the border, which stays in place, and the
-            // pins get waypoints.
+            // `fixed_targets` contains only the border vertices, which stay in place, and the pins.
+            // `zip` ends with it, so all other vertices get no waypoint.
             let waypoints: Vec<DVec2> = (mesh.points[0].iter().zip(&fixed_targets))
                 .map(|(p, q)| *p + (*q - *p) * along)
                 .collect();
@@ -222,8 +223,8 @@ fn spacing(frame: &Bounds) -> f64 {
 
 /// Returns the points of triangular lattices that fill the frame between border and pins. They are
 /// spaced like the points of the border, but more closely around pins that are close to another pin
-/// or to the border in either design. For each design, `ends` contains the `border` border points,
-/// followed by the pins.
+/// or to the border in either design. For each design, `ends` contains the points of the border,
+/// followed by the pins; `border` is the number of points of the border.
 fn fill_points(
     frame: &Bounds,
     border: usize,
@@ -254,10 +255,9 @@ fn fill_points(
         let is_last = lattice + 1 == LATTICES;
         for p in triangular_lattice(frame, step) {
             check_cancelled(progress)?;
-            // Only one lattice adds points at each place: the one whose spacing suits the place. If
-            // the required spacing is larger than that of the widest lattice, the widest lattice
-            // adds them; if it is smaller than that of the narrowest lattice, the narrowest lattice
-            // does.
+            // Only one lattice adds points at each place: the one whose spacing is nearest below
+            // the required spacing `size`. Where `size` is smaller than the spacing of the
+            // narrowest lattice, the narrowest lattice adds points.
             let size = spacing_at(p);
             let fits =
                 size < 2.0 * step && (size >= step || is_last) || lattice == 0 && size >= step;
@@ -289,8 +289,8 @@ fn triangular_lattice(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> 
         .filter(move |p| room.contains(*p))
 }
 
-/// Returns the indices of the pins nearest to the faces that are folded in the target: ascending,
-/// each once. `first` is the vertex index of the first pin of `all`.
+/// Returns the indices of the pins nearest to the faces that are folded in the target, ascending
+/// and without duplicates. `first` is the vertex index of the first pin of `all`.
 fn pins_near_folds(mesh: &PairMesh, first: usize, all: &[(usize, PointPair)]) -> Vec<usize> {
     let targets = &mesh.points[1];
     let mut pins: Vec<usize> = (mesh.faces())

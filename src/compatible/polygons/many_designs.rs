@@ -117,7 +117,7 @@ fn best_triangulation(
     Ok(best.map(|(_, mesh)| mesh))
 }
 
-/// Error of a cancelled triangulation.
+/// Result of [`triangulate_many`] after a cancel.
 fn cancelled(cancelled: Cancelled) -> (usize, Option<PieceMeshError>) {
     (0, Some(cancelled.into()))
 }
@@ -148,8 +148,8 @@ fn refined_mesh(
 }
 
 /// Reduces the distortion of a transferred mesh, if it has no folds. If the transfer had no folds
-/// to remove, inner vertices may lie where the harmonic map has put them, and this map distorts
-/// more than necessary.
+/// to remove, inner vertices may lie where the harmonic map has put them, and the harmonic map
+/// distorts more than necessary.
 fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
     for _ in 0..REDUCTION_ROUNDS {
         let before = mesh.points[1].clone();

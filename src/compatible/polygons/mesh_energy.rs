@@ -2,8 +2,8 @@
 //! inner vertices in both designs, and boundary vertices that slide along the outlines.
 //!
 //! The unknowns are the displacements of the inner vertices (all x in the first design, all y in
-//! the first, all x in the second, all y in the second), followed by one slide for each sliding
-//! vertex.
+//! the first, all x in the second, all y in the second), followed by one slide (a displacement
+//! along the outlines) for each sliding vertex.
 
 use super::face_cost;
 use super::pair_mesh::PairMesh;
@@ -51,7 +51,7 @@ pub(super) struct MeshEnergy<'a> {
     /// For each design, the factor that converts coordinates of its outlines to coordinates of the
     /// mesh.
     scales: [f64; 2],
-    /// Weight of the area-change term.
+    /// Weight of the term for the change of area in the face cost.
     area: f64,
     /// Scratch memory: vertex positions for the current unknowns, and the gradients with respect to
     /// these positions.
@@ -60,8 +60,8 @@ pub(super) struct MeshEnergy<'a> {
 }
 
 impl<'a> MeshEnergy<'a> {
-    /// Creates the cost as a function of the inner vertices only. `area` is the weight of the
-    /// area-change term.
+    /// Creates the cost as a function of the inner vertices only. `area` is the weight of the term
+    /// for the change of area in the face cost.
     pub(super) fn of_inner_vertices(mesh: &'a PairMesh, area: f64) -> Self {
         Self::new(mesh, &[], [1.0; 2], area)
     }
@@ -104,12 +104,12 @@ impl<'a> MeshEnergy<'a> {
         minimise(&mut x, steps, 1e-5, precondition, energy, progress);
         self.apply(&x);
         // The unknowns of the inner vertices come first, four for each vertex. The rest are the
-        // slides.
+        // slides, one for each sliding vertex.
         (self.current, x.split_off(4 * self.inner.len()))
     }
 
-    /// Derivative of a sliding vertex's position in one design with respect to its slide, at the
-    /// slide `by`.
+    /// Derivative of the position of a sliding vertex in one design with respect to its slide (its
+    /// displacement along the outlines). The derivative is taken where the slide is `by`.
     pub(super) fn velocity(&self, slider: usize, by: f64, design: usize) -> DVec2 {
         let slider = &self.sliders[slider];
         let along = slider.curves[design].velocity_at(slider.place(by, design));

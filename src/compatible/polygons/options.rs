@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PolygonOptions {
     /// Requested maximum length of inner edges, as a fraction of each design's diameter. If `None`,
-    /// faces grow from the boundary inwards, with at most two inner vertices for each boundary
-    /// vertex except in hard cases.
+    /// faces get larger from the boundary inwards, usually with at most two inner vertices for each
+    /// boundary vertex.
     pub edge_length: Option<f64>,
 }
 

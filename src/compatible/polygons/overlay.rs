@@ -1,5 +1,5 @@
-//! Guaranteed base mesh of two simple polygons: their triangulations are drawn on one convex
-//! polygon and overlaid (Aronov, Seidel, Souvaine 1993).
+//! Base mesh of two simple polygons, which always exists in exact arithmetic: triangulations of
+//! both polygons are drawn on one convex polygon and overlaid (Aronov, Seidel, Souvaine 1993).
 //!
 //! On a convex n-gon the vertex indices alone determine which chords of the two triangulations
 //! cross, so crossings are found without coordinates. Every cell of the overlay (the common
@@ -45,8 +45,8 @@ pub(super) fn overlay_triangulations(
     let chords = [0, 1].map(|d| diagonals(&triangulations[d], n));
     vertices.place_crossings(&chords, progress)?;
     let mut faces = Vec::new();
-    // The intersection of two triangles of a convex polygon is a cell, a segment, a corner or
-    // empty. The cells together fill the polygon.
+    // The intersection of a source triangle and a target triangle is a cell, a line segment, a
+    // point or empty. The cells together fill the convex polygon.
     for &s in &triangulations[0] {
         check_cancelled(progress)?;
         for &t in &triangulations[1] {
@@ -66,8 +66,8 @@ struct OverlayVertices {
     points: [Vec<DVec2>; 2],
 }
 
-/// Returns the chord `own` of `design` and the chord `other` of the other design, the source's
-/// chord first.
+/// Returns a pair of chords with the source's chord first. `own` is the chord of `design`, `other`
+/// the chord of the other design.
 fn source_first(design: usize, own: Chord, other: Chord) -> [Chord; 2] {
     if design == 0 {
         [own, other]
@@ -143,8 +143,8 @@ impl OverlayVertices {
     }
 
     /// Returns the part of the side `side` that lies in the triangle `other` of the other design's
-    /// triangulation, as two vertices in the direction of the side. `None` if that part is a point
-    /// or empty.
+    /// triangulation, as two vertices in the direction of the side. `None` if that part of the side
+    /// is a point or empty.
     fn clipped_side(&self, design: usize, side: [u32; 2], other: [u32; 3]) -> Option<(u32, u32)> {
         let chord = undirected(side);
         let mut ends: Vec<(u32, u32)> = Vec::with_capacity(2);
@@ -169,8 +169,8 @@ impl OverlayVertices {
         }
     }
 
-    /// Splits a cell into a fan of triangles around one of its corners. Of all these fans, the one
-    /// whose worst-shaped triangle is best is taken.
+    /// Splits a cell into a fan of triangles around one of its corners. Of the fans around all
+    /// corners, the one whose worst-shaped triangle has the best shape is used.
     fn fill(&self, cell: &[u32], faces: &mut Vec<[u32; 3]>) {
         let k = cell.len();
         let fan = |apex: usize| -> Vec<[u32; 3]> {

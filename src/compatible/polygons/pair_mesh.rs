@@ -90,8 +90,8 @@ impl PairMesh {
     /// Moves all vertices to `points` unless that makes a face invalid. Returns whether the
     /// vertices moved.
     ///
-    /// The check uses exact predicates. The caller's costs are computed in floating point and may
-    /// accept a face that is flat up to rounding.
+    /// The check uses exact predicates, because the new positions were found by costs in floating
+    /// point, which may be finite for a face that is flat.
     pub(super) fn move_to(&mut self, points: [Vec<DVec2>; 2]) -> bool {
         let before = std::mem::replace(&mut self.points, points);
         let is_valid = self.is_valid();
@@ -226,8 +226,8 @@ impl PairMesh {
         Some(middle)
     }
 
-    /// Highest cost of the faces at `v` after `v` is moved onto its neighbour `onto`; infinite if
-    /// the collapse is not allowed.
+    /// Highest cost of the faces that remain at `v` after `v` is merged into its neighbour `onto`;
+    /// infinite if the merge is not allowed.
     pub(super) fn collapse_cost(&self, v: u32, onto: u32) -> f64 {
         let shared = self.neighbours(onto);
         let common = self

@@ -31,8 +31,8 @@ const COSTLY: f64 = 6.0;
 /// Maximum product of the number of faces and the round number while unneeded vertices are removed.
 /// Beyond it, the removal ends and the remaining vertices stay (resource limit).
 const MAX_THINNING_WORK: usize = 150_000;
-/// Maximum number of rounds in which unneeded vertices are removed from the guaranteed base mesh
-/// (resource limit).
+/// Maximum number of rounds in which unneeded vertices are removed from a base mesh
+/// ([`super::bridges`]) (resource limit).
 const MAX_THINNING_ROUNDS: usize = 12;
 
 /// Improves a mesh by several rounds of flips, splits and moves.
@@ -65,7 +65,7 @@ pub(super) fn improve(
     check_cancelled(progress)
 }
 
-/// Adapts a mesh whose vertices have moved: flips edges and splits costly faces.
+/// Flips edges and splits costly faces of a mesh whose vertices have moved.
 pub(super) fn refit(
     mesh: &mut PairMesh,
     options: &PolygonOptions,
@@ -138,7 +138,7 @@ fn longest_inner_edge(mesh: &PairMesh, face: [u32; 3]) -> Option<[u32; 2]> {
         .max_by(|&a, &b| length(a).total_cmp(&length(b)))
 }
 
-/// Removes unneeded vertices from the guaranteed base mesh, which has far too many.
+/// Removes unneeded vertices from a base mesh ([`super::bridges`]), which has far too many.
 pub(super) fn remove_unneeded_vertices(
     mesh: &mut PairMesh,
     progress: &dyn Progress,

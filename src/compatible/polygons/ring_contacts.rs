@@ -60,7 +60,7 @@ impl LoopEdges {
 }
 
 /// Returns the indices of two edges that touch or cross where they must not; `None` if there are
-/// none. Crossings have priority over vertices that coincide without a slit.
+/// none. Crossings are preferred to vertices that coincide without a slit.
 pub(super) fn touching_edges(loops: &[&[DVec2]]) -> Option<[usize; 2]> {
     let edges = LoopEdges::of(loops);
     let all: Vec<usize> = (0..edges.next.len()).collect();
@@ -104,8 +104,7 @@ fn first_contact(edges: &LoopEdges, mut order: Vec<usize>, lenient: bool) -> Opt
     None
 }
 
-/// Returns whether the path from `a` over `b` to `c` runs back over itself or has an edge of length
-/// zero.
+/// Returns whether the polyline `a`–`b`–`c` runs back over itself or has an edge of length zero.
 fn folds_back(a: DVec2, b: DVec2, c: DVec2) -> bool {
     a == b || b == c || (orient2d(a, b, c) == 0.0 && (is_between(b, a, c) || is_between(b, c, a)))
 }

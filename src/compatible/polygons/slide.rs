@@ -1,6 +1,6 @@
 //! Improves the correspondence and the mesh together: the boundary vertices slide along the
-//! outlines of both designs, inner vertices follow, and the mesh adapts. Afterwards the map between
-//! the designs distorts less.
+//! outlines of both designs, inner vertices follow, and the mesh adapts. This reduces the
+//! distortion between the designs.
 //!
 //! A vertex that slides past a corner of an outline leaves the corner without a vertex. The caller
 //! therefore rebuilds the rings, including their corners, from the returned places.
@@ -22,13 +22,13 @@ use crate::geometry::Side;
 use crate::numerics::{Cholesky, CholeskyWorkspace, SymmetricMatrix};
 use crate::work::progress::Progress;
 
-/// Weight of the area-change term in the face cost (heuristic). Without the term, a map without
-/// angular distortion could shrink whole limbs to a point.
+/// Weight of the area-change term in the face cost (heuristic). Without the term, faces that keep
+/// their angles could shrink whole limbs to a point.
 const AREA: f64 = 0.45;
 
 /// Number added to the diagonal entry of each unknown, as a fraction of the summed absolute
 /// stiffness of the springs that act on this unknown (tolerance: keeps the matrix positive definite
-/// where springs cancel).
+/// where springs of positive and negative stiffness cancel).
 const REGULARISATION: f64 = 1e-6;
 
 /// Maximum number of descent steps in a round. After each round the mesh is adapted (heuristic).
@@ -37,8 +37,8 @@ const STEPS: usize = 20;
 const ROUNDS: usize = 4;
 
 /// Returns new positions of the vertices along the outlines (fractions of the whole outline): for
-/// each ring of the piece, a list of pairs `[source, target]`. With these positions the map between
-/// the designs distorts less than in `mesh`. `None` if no vertex can slide, if rounding makes the
+/// each ring of the piece, a list of pairs `[source, target]`. With these positions the distortion
+/// between the designs is less than in `mesh`. `None` if no vertex can slide, if rounding makes the
 /// mesh invalid, or on a cancel.
 pub(crate) fn slide_outlines(
     piece: &PieceMatch,

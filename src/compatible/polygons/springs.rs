@@ -6,8 +6,8 @@ use crate::numerics::{Cholesky, CholeskyWorkspace, SymmetricMatrix};
 use crate::work::progress::Progress;
 
 /// Number added to each diagonal entry of the stiffness matrix, as a fraction of the mean stiffness
-/// per movable vertex (tolerance: keeps the matrix positive definite where springs cancel; small
-/// enough that steps hardly shorten, and far above rounding).
+/// per movable vertex (tolerance: keeps the matrix positive definite where springs of positive and
+/// negative stiffness cancel; small enough that steps hardly shorten, and far above rounding).
 const REGULARISATION: f64 = 1e-6;
 
 /// Stiffness matrix of a network of springs, in factored form.

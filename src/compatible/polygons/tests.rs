@@ -177,7 +177,7 @@ fn together(source: &[DVec2], target: &[DVec2]) -> CompatibleMesh {
     mesh
 }
 
-/// Builds the guaranteed base mesh of two polygons, checks it and returns it.
+/// Builds the base mesh of two polygons, without trying a transfer first, checks it and returns it.
 fn base(source: &[DVec2], target: &[DVec2]) -> PairMesh {
     let mesh = from_base(
         &BoundaryRings::of(&[source]),

@@ -18,8 +18,8 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 /// Maximum number of rounds of fold removal (resource limit: [`PATIENCE`] usually ends the removal
 /// earlier).
 pub(super) const MAX_ROUNDS: usize = 60;
-/// Number of rounds of fold removal after which a transfer stops, if it or the transfer in the
-/// other direction is free of folds by then (heuristic).
+/// Number of rounds of fold removal after which the transfers in both directions stop, if either is
+/// free of folds by then (heuristic).
 pub(super) const FIRST_ROUNDS: usize = PATIENCE;
 /// Number of rounds in which the number of folds must decrease to the fraction [`MAX_REMAINING`];
 /// otherwise the transfer is given up (heuristic).
@@ -35,8 +35,8 @@ pub(super) struct Transfer {
 
 impl Transfer {
     /// Creates a refined triangulation of the polygon `from` and places it on the polygon `to`,
-    /// where it may be folded. `None` if `from` cannot be triangulated or the placement cannot be
-    /// computed.
+    /// where it may be folded. `None` if `from` cannot be triangulated or the positions of the
+    /// inner vertices on `to` cannot be computed.
     pub(super) fn begin(
         from: &BoundaryRings,
         to: &BoundaryRings,
@@ -49,8 +49,8 @@ impl Transfer {
                 .map(|share| share * Bounds::diameter_of(&from.points)),
             max_points: options.max_inner_points(from.points.len()),
         };
-        // No error is returned here: the guaranteed base is built from the same rings and reports
-        // any fault in them.
+        // No error is returned here: the base mesh, which is built next, uses the same rings and
+        // reports any fault in them.
         let start = refined_delaunay(&from.loops(), &refinement, progress);
         check_cancelled(progress)?;
         let Ok(start) = start else {
@@ -127,7 +127,7 @@ pub(super) fn continue_transfer(
     FoldHistory::default().remove(mesh, MAX_ROUNDS, progress)
 }
 
-/// History of a fold removal.
+/// Progress of a fold removal.
 #[derive(Default)]
 struct FoldHistory {
     /// For each round done: the smallest number of folds counted before that round or before any

@@ -1,5 +1,5 @@
-//! Compatible triangulation of one piece in two designs: transfers in both directions, the
-//! guaranteed base mesh if both fail, then improvement of the angles.
+//! Compatible triangulation of one piece in two designs: transfers in both directions, the base
+//! mesh if both fail, then improvement of the angles.
 
 use super::boundary_rings;
 use super::boundary_rings::BoundaryRings;
@@ -14,14 +14,14 @@ use crate::geometry::{DVec2, Side, lexicographic};
 use crate::work::progress::{Cancelled, Progress, ProgressShares, ProgressSpan, checkpoint};
 use rayon::prelude::*;
 
-/// Maximum number of boundary points for which the guaranteed base mesh is built directly; larger
-/// pieces are coarsened first (resource limit: 200 corners can cause 39,000 crossings, and each
-/// becomes a vertex).
+/// Maximum number of boundary points for which the base mesh is built directly; larger pieces are
+/// coarsened first (resource limit: 200 corners can cause 39,000 crossings, and each becomes a
+/// vertex).
 const MAX_BASE_POINTS: usize = 200;
 
 /// Progress reported once the transfers are done, in [0, 1] (heuristic).
 const PROGRESS_AFTER_TRANSFER: f64 = 0.5;
-/// Progress reported once the guaranteed base mesh is built, in [0, 1] (heuristic).
+/// Progress reported once the base mesh is built, in [0, 1] (heuristic).
 const PROGRESS_AFTER_BASE: f64 = 0.7;
 
 impl CompatibleMesh {
@@ -163,8 +163,8 @@ fn best_transfer(
             Some(transfer) => transfer.unfold(rounds, share),
             None => Ok(()),
         })?;
-        // If one direction is free of folds by now, the other is given up: it would need many more
-        // rounds and end up worse, if it succeeded at all.
+        // If the transfer in one direction is free of folds by now, the other transfer is given up.
+        // It would need many more rounds and would give a worse mesh, if any.
         if transfers.iter().flatten().any(Transfer::is_fold_free) {
             break;
         }
@@ -175,7 +175,7 @@ fn best_transfer(
         .map(|(transfer, share)| {
             let mut mesh = transfer.and_then(Transfer::into_valid_mesh);
             if let Some(mesh) = &mut mesh {
-                // The mesh is improved only as far as the comparison needs.
+                // A short improvement suffices to compare the two meshes.
                 quality::relax_and_flip(mesh, share)?;
             }
             Ok(mesh)
@@ -186,7 +186,7 @@ fn best_transfer(
     Ok(best.min_by(|a, b| mean_cost(a).total_cmp(&mean_cost(b))))
 }
 
-/// Builds the guaranteed base mesh and removes unneeded vertices from it.
+/// Builds the base mesh of a piece ([`bridges`]) and removes unneeded vertices from it.
 pub(super) fn from_base(
     source: &BoundaryRings,
     target: &BoundaryRings,
@@ -198,8 +198,8 @@ pub(super) fn from_base(
     } else {
         bridges::bridged_base(source, target, &first)?
     };
-    // In exact arithmetic no face of the base is folded. If rounding has folded one, no later step
-    // repairs it.
+    // In exact arithmetic no face of the base mesh is folded. If rounding has folded one, no later
+    // step repairs it.
     if let Some(error) = degenerate_faces_error(&mesh) {
         return Err(error);
     }

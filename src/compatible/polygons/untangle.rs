@@ -31,7 +31,7 @@ struct UntangleFace {
 }
 
 impl UntangleFace {
-    /// Jacobian of the map of this face from source to target, where `at` gives the target
+    /// Jacobian of the affine map of this face from source to target, where `at` gives the target
     /// positions of the vertices.
     fn jacobian(&self, at: impl Fn(usize) -> DVec2) -> DMat2 {
         let [a, b, c] = self.corners.map(at);
@@ -39,7 +39,7 @@ impl UntangleFace {
     }
 }
 
-/// Computes the energy quantities of all faces of a mesh.
+/// Returns each face with the quantities from which its energy is computed.
 fn untangle_faces(mesh: &PairMesh) -> Vec<UntangleFace> {
     let twice_areas = |d: usize| {
         mesh.faces()
@@ -89,8 +89,8 @@ pub(super) fn untangle(mesh: &mut PairMesh, progress: &dyn Progress) -> bool {
     mesh.points[1] != start
 }
 
-/// Returns springs whose stiffness is, up to a factor, the second derivative of the energy near an
-/// undistorted map; `None` if their matrix is not positive definite, or on a cancel.
+/// Returns springs whose stiffness is, up to a factor, the second derivative of the energy where no
+/// face is distorted; `None` if their matrix is not positive definite, or on a cancel.
 fn springs(faces: &[UntangleFace], movable: &[u32], progress: &dyn Progress) -> Option<Springs> {
     let springs = faces.iter().flat_map(|face| {
         let weight = 2.0 * face.share;

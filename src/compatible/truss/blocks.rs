@@ -65,7 +65,8 @@ fn bounded_faces(bars: &[[u32; 2]], nodes: &[DVec2]) -> Vec<Vec<u32>> {
     let successor = successors(bars, nodes);
     let mut seen = HashSet::new();
     let mut faces = Vec::new();
-    // For each node, its index in the current path; `None` if the path does not contain the node.
+    // For each node, its index in `path`, the nodes visited since the last complete cycle; `None`
+    // if `path` does not contain the node.
     let mut position = vec![None; nodes.len()];
     for &start in successor.keys() {
         let mut path = Vec::new();
@@ -75,8 +76,8 @@ fn bounded_faces(bars: &[[u32; 2]], nodes: &[DVec2]) -> Vec<Vec<u32>> {
             let [from, to] = edge;
             position[from as usize] = Some(path.len());
             path.push(from);
-            // The path has returned to a node. The section since its last visit is a cycle of its
-            // own.
+            // `path` has returned to a node. The nodes since the last visit to this node form a
+            // cycle.
             if let Some(back) = position[to as usize] {
                 let mut cycle = path.split_off(back);
                 cycle

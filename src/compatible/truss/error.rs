@@ -8,12 +8,13 @@ use crate::work::progress::Cancelled;
 /// 160 million triangles, in about a second).
 pub(super) const MAX_PANEL_NODES: usize = 1000;
 
-/// Reason why two trusses have no common triangulation. Nodes and bars count from 0, as in truss
-/// files.
+/// Reason why two trusses have no common triangulation. Indices of nodes and bars start at 0 in
+/// fields and in messages, as in truss files.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrussError {
-    /// The source and the target truss have these different numbers of nodes.
+    /// The trusses have different numbers of nodes. The field contains the numbers of source and
+    /// target.
     #[error("the source truss has {} nodes and the target {}; both need the same nodes in the same order", .0[0], .0[1])]
     NodeCounts([usize; 2]),
     /// A bar exists in only one of the trusses.

@@ -87,8 +87,8 @@ impl ChordTable {
             let parts = self.cells[self.cell(i, k)]
                 .0
                 .min(self.cells[self.cell(k, j)].0);
-            // This check comes before the slow exact predicates. A triangle cannot improve on the
-            // smallest angle of the two parts next to it.
+            // This check comes before the slow exact predicates. The triangle cannot improve the
+            // smallest angle of the two parts of the polygon next to it.
             if parts <= best.0 {
                 continue;
             }

@@ -100,7 +100,7 @@ fn a_concave_panel_takes_diagonals_valid_in_both() {
 
 #[test]
 fn outer_pockets_stay_open() {
-    // U-shaped outline of three squares, with rungs.
+    // Outline of a U, made of seven unit squares. The gap between its arms must get no faces.
     let nodes = [
         (0.0, 0.0),
         (3.0, 0.0),
@@ -134,8 +134,8 @@ fn crossed_braces_keep_one_and_carry_the_other() {
     let (faces, elements) = both_ways(&truss(&SQUARE, &bars), &truss(&SQUARE, &bars));
     assert_eq!(faces, [[0, 1, 2], [0, 2, 3]]);
     assert!(elements.is_empty());
-    // In the dart the bar 0–2 lies outside. Both crossing bars are removed, and the triangulation
-    // uses the diagonal 1–3.
+    // In the dart (a concave quadrilateral) the bar 0–2 lies outside. Both crossing bars are
+    // removed, and the triangulation uses the diagonal 1–3.
     let dart = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.2, 0.8)];
     let (faces, elements) = both_ways(&truss(&SQUARE, &bars), &truss(&dart, &bars));
     assert!(faces.iter().all(|f| f.contains(&1) && f.contains(&3)));

@@ -15,8 +15,8 @@ pub struct PictureLayer {
     picture: Picture,
     /// Levels of the pyramid, from full resolution down to a single pixel.
     mip_levels: Arc<Vec<MipLevel>>,
-    /// Map from the plane to pixel coordinates of the picture: x right, y down, origin in the
-    /// picture's upper left corner.
+    /// Affine map from the plane to pixel coordinates of the picture: x right, y down, origin in
+    /// the picture's upper left corner.
     from_plane: DAffine2,
 }
 
@@ -105,7 +105,7 @@ impl PictureLayer {
     }
 }
 
-/// Returns the map that scales by `by` along the axes and then translates by `offset`.
+/// Returns the affine map that scales by `by` along the axes and then translates by `offset`.
 fn scale_then_translate(by: DVec2, offset: DVec2) -> DAffine2 {
     DAffine2::from_mat2_translation(DMat2::from_diagonal(by), offset)
 }
@@ -120,8 +120,9 @@ pub(super) struct PictureSampler<'a> {
 /// The length of one pixel in 32.32 fixed-point format.
 const ONE: f64 = (1u64 << 32) as f64;
 
-/// Distance from a picture, in its pixels, to which positions are clamped (derived: twice that
-/// distance does not overflow the fixed-point format).
+/// Maximum distance of a sampled position from the picture's upper left corner, in pixels along
+/// each axis; positions farther away are clamped to it (derived: twice that distance does not
+/// overflow the fixed-point format).
 const FAR: f64 = (1u64 << 29) as f64;
 
 impl<'a> PictureSampler<'a> {

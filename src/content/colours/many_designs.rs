@@ -1,5 +1,5 @@
-//! Cross-dissolve of any number of pictures cⱼ with weights wⱼ: c = Σ wⱼ cⱼ in linear light. Each
-//! picture is sampled through its own map.
+//! Cross-dissolve of any number of pictures cⱼ with weights wⱼ: c = Σ wⱼ cⱼ in linear light. In
+//! each face, each picture is sampled along its own affine map.
 //!
 //! Guaranteed: with all weight on one design the result is the picture of this design; for two
 //! designs with the weights (1 − t, t) it equals a [`PicturePair`](super::PicturePair) at t to
@@ -63,8 +63,8 @@ impl PictureSet {
         Bounds { min, max }
     }
 
-    /// Returns the fraction of each picture in the mix. Its weight, clamped to [0, 1], is converted
-    /// by [`ColourMix::target_fraction`] and divided by the sum over all pictures.
+    /// Returns for each picture its fraction in the mix: its weight, clamped to [0, 1] and
+    /// converted by [`ColourMix::target_fraction`], divided by the sum over all pictures.
     fn shares(&self, weights: &[f64]) -> Vec<f64> {
         self.normalised(weights, |weight| self.mix.target_fraction(weight))
     }
@@ -87,8 +87,8 @@ impl PictureSet {
         }
     }
 
-    /// Renders the mix for these weights in sRGB with straight alpha, with each picture sampled
-    /// through its own map. Pixels that no face covers are transparent.
+    /// Renders the mix for these weights in sRGB with straight alpha, with each picture sampled at
+    /// its own positions in `places`. Pixels that no face covers are transparent.
     ///
     /// # Panics
     /// Panics if the number of weights or the number of designs in `places` differs from the number

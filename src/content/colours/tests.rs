@@ -1,4 +1,5 @@
-//! Tests of picture mixes: exact ends, linear light, transparency, cropping and refused mixes.
+//! Tests of picture mixes: exact pictures at t = 0 and t = 1, linear light, transparency, cropping
+//! and refused mixes.
 
 mod reference;
 

@@ -61,9 +61,9 @@ impl FieldSet {
     }
 
     /// Returns the blend F = Σ wⱼ L(fⱼ) for the weights wⱼ as a distance field: each sample is the
-    /// distance x with L(x) = F. At the samples, a blend of two fields that this function has
-    /// returned therefore equals a single blend of the original fields: its weights are the two
-    /// lists of weights, blended in the same way. With all weight on one design the result is that
+    /// distance x with L(x) = F. Repeated blending is therefore exact at the samples: a blend of
+    /// two results of this function equals a single blend of the original fields, with the two
+    /// lists of weights blended in the same way. With all weight on one design the result is that
     /// design's field, unchanged.
     ///
     /// # Panics

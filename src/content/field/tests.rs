@@ -1,5 +1,5 @@
-//! Tests of field blends: the paper's formula, exact ends, thresholds, topology, clipping and
-//! refused input.
+//! Tests of field blends: the paper's formula, exact shapes at t = 0 and t = 1, thresholds,
+//! topology, clipping and refused input.
 
 use super::*;
 use crate::geometry::{Bounds, FillRule, Regions, signed_area};

@@ -10,7 +10,8 @@ impl RegionMatch {
     /// Returns pairs of points (pins) along the matched rings, one list for each matched ring. Pins
     /// lie where the outlines bend and where they change most. The longest ring gets about `count`
     /// pins, a shorter one proportionally fewer, but at least four. Rings that close to a point or
-    /// open from one have no list, because no invertible map of the plane closes a ring to a point.
+    /// open from one have no list, because no invertible mapping of the plane closes a ring to a
+    /// point.
     ///
     /// ```
     /// use morphospace::correspondence::{MatchSettings, match_regions};
@@ -38,8 +39,8 @@ impl RegionMatch {
     }
 }
 
-/// Returns the arc length from the first vertex to each vertex and back to the first, averaged over
-/// both designs.
+/// Returns the arc length along a ring from its first vertex to each vertex, and at last the length
+/// of the whole ring. Lengths are averaged over both designs.
 fn arc_lengths(ring: &RingMatch) -> Vec<f64> {
     let n = ring.source.len();
     let mut sums = vec![0.0];
@@ -51,14 +52,14 @@ fn arc_lengths(ring: &RingMatch) -> Vec<f64> {
     sums
 }
 
-/// Returns the ring's total length, which is the last of its [`arc_lengths`].
+/// Returns a ring's total length: the last entry of its [`arc_lengths`].
 fn total(sums: &[f64]) -> f64 {
     sums.last().copied().unwrap_or(0.0)
 }
 
 /// Selects at most `count` pairs of vertices as pins. Starts with a few evenly spaced vertices, and
-/// repeatedly adds the vertex that linear interpolation between its neighbouring pins predicts
-/// worst.
+/// repeatedly adds the vertex whose position is predicted worst by linear interpolation between the
+/// neighbouring pins.
 fn pins(ring: &RingMatch, count: usize) -> Vec<PointPair> {
     let sums = arc_lengths(ring);
     let n = ring.source.len();
@@ -91,13 +92,14 @@ fn pins(ring: &RingMatch, count: usize) -> Vec<PointPair> {
     spans.iter().map(pair).collect()
 }
 
-/// The vertices from one pin to the next, with indices unwrapped over the seam.
+/// The vertices from one pin of a ring to the next. Indices continue from round to round: with n
+/// vertices, index n is vertex 0 again.
 #[derive(Clone, Copy, Debug)]
 struct PinInterval {
     from: usize,
     to: usize,
-    /// Vertex between the two pins that interpolation between them predicts worst; `from` if there
-    /// is none.
+    /// Vertex between the two pins whose position is predicted worst by interpolation between the
+    /// pins; `from` if there is no vertex between them.
     farthest: usize,
     /// Squared prediction error of the vertex `farthest`, summed over both designs.
     off: f64,

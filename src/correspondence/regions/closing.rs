@@ -8,9 +8,10 @@
 use super::region_match::POINT_SIZE;
 use crate::geometry::{Bounds, DVec2, Region, Ring, ray_hit_parameter};
 
-/// Minimum clearance of the point to which a hole closes, as a fraction of the largest clearance
-/// available. More would pull holes to the middle of the part; less would push them to its
-/// boundary, where triangles are thin (heuristic).
+/// Minimum clearance (distance from the part's boundary and from other tiny rings) of the point to
+/// which a hole closes, as a fraction of the largest clearance available. A larger minimum would
+/// pull holes to the middle of the part; a smaller one would push them to its boundary, where
+/// triangles are thin (heuristic).
 const MIN_CLEARANCE: f64 = 0.25;
 
 /// Maximum diameter of the tiny ring that represents a point, as a fraction of the point's
@@ -37,7 +38,7 @@ pub(super) struct FreeSpace<'a> {
     places: Vec<(DVec2, f64)>,
     /// Centres of the tiny rings that were placed so far.
     occupied: Vec<DVec2>,
-    /// Maximum diameter of a tiny ring that represents a point.
+    /// Maximum diameter of a tiny ring that represents a point, in design units.
     size: f64,
 }
 
@@ -75,8 +76,8 @@ impl<'a> FreeSpace<'a> {
         let with_clearance = |(p, to_boundary): (DVec2, f64)| (p, self.clearance(p, to_boundary));
         let clearances: Vec<(DVec2, f64)> = points.chain(shifted).map(with_clearance).collect();
         let best_clearance = clearances.iter().map(|place| place.1).fold(0.0, f64::max);
-        // Take the nearest point with enough clearance, not the one with the most: the hole should
-        // close near its own place.
+        // Take the nearest point with enough clearance, not the point with the largest clearance:
+        // the hole should close near its own place.
         let mut candidates = clearances
             .iter()
             .copied()

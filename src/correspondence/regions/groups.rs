@@ -52,7 +52,8 @@ pub(crate) fn paired_parts(
     settings: &MatchSettings,
 ) -> Result<Vec<[Option<usize>; 2]>, RegionMatchError> {
     let groups = group_parts(designs, looks, settings, &[])?;
-    // The last part of the shorter list repeats, so no part is omitted.
+    // If one of the lists of parts is shorter, its last part is repeated, so that no part is
+    // omitted.
     let pairs = |PartGroup { parts }: &PartGroup| -> Vec<[Option<usize>; 2]> {
         let count = parts.iter().map(Vec::len).max().unwrap_or(0);
         let part_or_last =
@@ -79,8 +80,8 @@ pub(super) fn group_parts(
         .iter()
         .map(|g| [g.parts[0][0], g.parts[1][0]])
         .collect();
-    // Pass the first pair of each group on as fixed. Exclude the group's other parts, and parts
-    // declared unmatched, from the pairing.
+    // Pass the first pair of each group to the pairing as a fixed pair. Exclude the group's other
+    // parts, and parts declared unmatched, from the pairing.
     let unmatched = declared_unmatched(designs, settings, &groups);
     let fixed_parts = Side::BOTH.map(|side| -> Vec<usize> {
         let additional = groups.iter().flat_map(|g| g.parts[side][1..].to_vec());
@@ -208,8 +209,8 @@ fn declared_unmatched(
     unmatched
 }
 
-/// Adds each unmatched part to the nearest group of its paint layer whose single part in the other
-/// design may be split for it. If there is no such group, the part becomes a separate group.
+/// Adds each unmatched part to the nearest suitable group of its paint layer: one whose single part
+/// in the other design may be split. If there is no such group, the part becomes a separate group.
 fn assign_unmatched(
     groups: &mut Vec<PartGroup>,
     designs: [&Regions; 2],

@@ -13,7 +13,7 @@ pub(super) struct RingIndex {
     pub(super) ring: usize,
 }
 
-/// A pin with its ends and the rings on which they lie, source first.
+/// A pin with its two points and the rings on which they lie, source first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LocatedPin {
     /// Index of the pin in the settings.
@@ -43,7 +43,7 @@ pub(super) fn check_places(settings: &MatchSettings) -> Result<(), RegionMatchEr
     Ok(())
 }
 
-/// Returns each pin with the rings that are nearest to its ends.
+/// Returns each pin with the rings that are nearest to its two points.
 pub(super) fn locate_pins(settings: &MatchSettings, designs: [&Regions; 2]) -> Vec<LocatedPin> {
     let located = |(index, pair): (usize, &PointPair)| {
         let points = pair.to_array();

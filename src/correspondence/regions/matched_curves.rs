@@ -12,19 +12,20 @@ use crate::geometry::{DVec2, Side};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MatchedCurves {
     curves: [BoundaryCurve; 2],
-    /// Match of the two curves.
     matched: BoundaryMatch,
     /// Maximum edge length of the shared polygons, as a fraction of the curves' mean length.
     spacing: f64,
     /// For each design: both ends of each slit (a straight cut from a hole to another boundary).
     /// The curve runs along each slit in both directions.
     slits: [Vec<[DVec2; 2]>; 2],
-    /// Places of the ring's vertices, `[source, target]`.
+    /// Places `[source, target]` of the ring's vertices on the two curves, as fractions of arc
+    /// length.
     places: Vec<[f64; 2]>,
 }
 
 impl MatchedCurves {
-    /// Creates the pair and the polygons with its shared vertices.
+    /// Stores two matched curves, and creates the two polygons with corresponding vertices along
+    /// them.
     pub(super) fn new(
         curves: [BoundaryCurve; 2],
         matched: BoundaryMatch,
@@ -54,7 +55,8 @@ impl MatchedCurves {
         &self.curves
     }
 
-    /// Returns the places of the ring's vertices, `[source, target]`.
+    /// Returns the places `[source, target]` of the ring's vertices on the two curves, as fractions
+    /// of arc length.
     pub(crate) fn places(&self) -> &[[f64; 2]] {
         &self.places
     }
@@ -64,9 +66,9 @@ impl MatchedCurves {
         is_pin(&self.matched.pins, self.places[vertex])
     }
 
-    /// Returns the pair with its vertices moved to other places. `places` holds the new place of
-    /// each vertex, which must be close to its old one. Vertices that would break monotonicity are
-    /// omitted, except pins.
+    /// Returns these curves with the shared vertices moved to other places. `places` holds the new
+    /// place of each vertex, which must be close to its old one. Vertices that would break
+    /// monotonicity are omitted, except pins.
     pub(super) fn with_places(&self, places: &[[f64; 2]]) -> (Self, SharedPolygons) {
         let wrapped = |place: &[f64; 2]| [0, 1].map(|side| self.curves[side].wrapped(place[side]));
         let places: Vec<[f64; 2]> = places.iter().map(wrapped).collect();

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 /// Maximum edge length of matched rings, as a fraction of the outer ring's length: at least 80
 /// edges around. Fewer edges would bend coarsely; more edges cost time, because the number of
-/// triangles inside grows with their square (heuristic).
+/// triangles inside grows with the square of this number (heuristic).
 const MAX_EDGE: f64 = 0.0125;
 
 /// Minimum number of vertices of a ring. [`MAX_EDGE`] alone would turn a small hole into a triangle
@@ -87,7 +87,8 @@ impl PartMatcher<'_> {
             let (turn, middle) = (DVec2::from_angle(by), outline_centre(ring));
             curve(&ring.mapped(|p| turn.rotate(p - middle)))
         };
-        // Rotate each side by half the angle, so that the reverse match is exactly the inverse.
+        // Rotate the hole of each design by half the angle, so that the reverse match is exactly
+        // the inverse.
         let posed = [
             turned(holes[0], 0.5 * rotation)?,
             turned(holes[1], -0.5 * rotation)?,

@@ -33,7 +33,8 @@ pub(crate) enum HolePolicy {
 }
 
 impl HolePolicy {
-    /// Returns whether the policy allows rings to be cut open without a request by the user.
+    /// Returns whether the policy allows cutting a part open at a hole without a request by the
+    /// user.
     fn cuts(self) -> bool {
         matches!(self, Self::Paired(HoleRule::Auto | HoleRule::Cut))
     }
@@ -59,7 +60,7 @@ pub(super) struct PartMatchTask<'a> {
     pub(super) progress: &'a dyn Progress,
 }
 
-/// A pin with the rings on which its ends lie.
+/// A pin with the rings on which its two points lie.
 pub(super) struct PartPin {
     /// Index among all pins.
     pub(super) index: usize,
@@ -159,9 +160,9 @@ impl<'a> PartMatcher<'a> {
         })
     }
 
-    /// Pairs the holes, and cuts rings open where that is requested or matches better than closing
-    /// the hole. Returns the pairs and the cuts made. `rotation` is that of the outer boundaries'
-    /// match, in radians.
+    /// Pairs the holes. Cuts a part open at an unmatched hole where that is requested or matches
+    /// better than closing the hole. Returns the pairs and the cuts made. `rotation` is that of the
+    /// outer boundaries' match, in radians.
     ///
     /// # Errors
     /// [`RegionMatchError`] for pins or cuts that cannot be satisfied, or if the work is cancelled.
@@ -337,9 +338,9 @@ impl<'a> PartMatcher<'a> {
         self.match_with_pins(is_on_both, &curves, &curves)
     }
 
-    /// Matches the curves `source` and `target` with the pins that satisfy `is_here`. The places of
-    /// the pins are found on the curves `located`: the same two curves as drawn, of which `source`
-    /// and `target` may be rotated copies. Errors refer to pins by their indices among all pins.
+    /// Matches the curves `source` and `target` with the pins that satisfy `is_here`. The two
+    /// curves may be rotated copies of the curves `located`, on which the places of the pins are
+    /// found. Errors refer to pins by their indices among all pins.
     pub(super) fn match_with_pins(
         &self,
         is_here: impl Fn(&PartPin) -> bool,

@@ -26,12 +26,11 @@ const PREPARED: f64 = 0.2;
 #[derive(Clone)]
 pub(crate) struct MatchPlan<'a> {
     pub(super) designs: [&'a Regions; 2],
-    /// Appearance of the parts.
     appearances: &'a PartAppearances,
     pub(super) settings: &'a MatchSettings,
     /// Pairs of parts that the user linked or pinned.
     pub(super) fixed_pairs: Vec<[usize; 2]>,
-    /// Pins with the rings on which their ends lie.
+    /// Pins with the rings on which their points lie.
     pins: Vec<LocatedPin>,
     parts: [DesignParts<'a>; 2],
     pub(super) groups: Vec<PartGroup>,
@@ -97,8 +96,8 @@ impl<'a> MatchPlan<'a> {
         (self.groups, self.pieces) = groups.into_iter().unzip();
     }
 
-    /// Returns whether a line is drawn along any part of the group with this index; a cut through
-    /// such a part would be visible.
+    /// Returns whether a paint layer with a line (stroke) contains any part of the group with this
+    /// index. A cut through such a part would be visible.
     pub(crate) fn is_stroked(&self, group: usize) -> bool {
         let parts = &self.groups[group].parts;
         let is_lined = |side: Side| {
@@ -109,7 +108,7 @@ impl<'a> MatchPlan<'a> {
         Side::BOTH.into_iter().any(is_lined)
     }
 
-    /// Returns the appearance of the parts.
+    /// Returns the appearance of all parts: paint, layer, name, and whether they are text.
     pub(crate) fn appearances(&self) -> &'a PartAppearances {
         self.appearances
     }
@@ -149,7 +148,7 @@ impl<'a> MatchPlan<'a> {
         })
     }
 
-    /// Returns the groups of parts.
+    /// Returns the groups of parts that are matched together.
     pub(crate) fn groups(&self) -> &[PartGroup] {
         &self.groups
     }

@@ -38,7 +38,7 @@ pub struct PieceMatch {
     /// Index of the target's part that contains the piece; `None` if the piece exists only in the
     /// source.
     pub target_part: Option<usize>,
-    /// Cuts that were made in the piece to open the rings around holes.
+    /// Cuts that open the piece at holes.
     pub cuts: Vec<RingCut>,
     /// Rotation of the source's outer ring that best aligns it with the target's, in radians in
     /// (−π, π].
@@ -50,8 +50,8 @@ pub struct PieceMatch {
     pub notes: Vec<MatchNote>,
 }
 
-/// Request that a match could not fulfil, and its substitute. Parts, holes and pins count from 0 in
-/// fields and from 1 in messages.
+/// Request that a match could not fulfil, and its substitute. The indices of parts, holes and pins
+/// start at 0 in the fields and at 1 in messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum MatchNote {
@@ -111,8 +111,8 @@ pub enum RingKind {
     Opens,
 }
 
-/// Reason why two designs were not matched. Pins and cuts count from 0 in fields and from 1 in
-/// messages, in the order given.
+/// Reason why two designs were not matched. The indices of pins and cuts start at 0 in the fields
+/// and at 1 in messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegionMatchError {
@@ -204,7 +204,8 @@ impl RingMatch {
             && points.all(|point| point.is_finite())
     }
 
-    /// Creates a ring along two matched curves, with the polygons that share their vertices.
+    /// Creates a matched ring from two matched curves and the two polygons with corresponding
+    /// vertices along them.
     pub(super) fn from_curves(curves: MatchedCurves, polygons: SharedPolygons) -> Self {
         Self {
             source: polygons.source,
@@ -214,8 +215,8 @@ impl RingMatch {
         }
     }
 
-    /// Creates a ring of the design `side`, with vertices `whole`, that is a tiny ring `point` in
-    /// the other design.
+    /// Creates a ring that exists only in the design `side`. `whole` holds its vertices there;
+    /// `point` holds the tiny ring that represents a point in the other design.
     pub(super) fn transient(side: Side, whole: Vec<DVec2>, point: Vec<DVec2>) -> Self {
         let kind = match side {
             Side::Source => RingKind::Closes,

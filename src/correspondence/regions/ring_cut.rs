@@ -1,8 +1,8 @@
-//! Finds the best place at which the ring around a hole can be cut open.
+//! Finds the best place at which a part can be cut open to a hole.
 //!
-//! Candidate cuts start at evenly spaced places on the boundary and end at the nearest point of the
-//! hole. Each is rated by the cost of a match with few samples. A second round tries places between
-//! the two neighbours of the best place.
+//! The search tries cuts that start at evenly spaced places on the boundary and end at the nearest
+//! point of the hole. Each is rated by the cost of a match with few samples. A second round tries
+//! places between the two neighbours of the best place.
 
 use super::super::boundary::match_curves;
 use super::super::curve::BoundaryCurve;

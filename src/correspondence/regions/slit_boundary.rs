@@ -20,7 +20,7 @@ pub(super) struct Slit {
     outer_edge: usize,
     /// Index of the hole's edge on which the slit ends.
     hole_edge: usize,
-    /// End on the loop and end on the hole.
+    /// Ends of the slit: first the end on the loop, then the end on the hole.
     pub(super) ends: [DVec2; 2],
 }
 

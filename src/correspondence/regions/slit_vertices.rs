@@ -11,11 +11,13 @@ use super::super::shared_polygons::SharedPolygons;
 use crate::geometry::{DVec2, Side, SourceTarget};
 
 /// Maximum distance at which a vertex of one passage is merged with a vertex of the other. The unit
-/// is the spacing that the vertices of the fuller passage would have if they were evenly spaced.
-/// Below ½, so that no vertex is within this distance of two evenly spaced ones (heuristic).
+/// is the spacing that the vertices of the passage with more vertices would have if they were
+/// evenly spaced. Below ½, so that no vertex is within this distance of two evenly spaced ones
+/// (heuristic).
 const MERGE_DISTANCE: f64 = 0.35;
 
-/// A vertex on one passage along a slit.
+/// A vertex on one of the two passages along a slit: a boundary loop follows the slit there and
+/// back.
 #[derive(Clone, Copy)]
 struct PassageVertex {
     /// Position along the slit as a fraction of its length from its outer end, in (0, 1).
@@ -28,8 +30,8 @@ struct PassageVertex {
 struct SlitVertex {
     /// Position along the slit as a fraction of its length from its outer end, in (0, 1).
     along: f64,
-    /// Indices of the vertices that the outward and the return passage already have here; `None`
-    /// where one is missing.
+    /// Indices of the vertices that the outward and the return passage already have at this point;
+    /// `None` where one is missing.
     existing: [Option<usize>; 2],
 }
 
@@ -134,8 +136,8 @@ fn separate_positions(mut vertices: Vec<SlitVertex>) -> Vec<SlitVertex> {
         .chain(positions.iter().copied())
         .chain(std::iter::once(1.0))
         .collect::<Vec<_>>();
-    // If any two are too close, space all vertices evenly: tiny edges along a slit would force thin
-    // triangles.
+    // If any two vertices are too close, space all vertices evenly: tiny edges along a slit would
+    // force thin triangles.
     let is_crowded = bounds.windows(2).any(|w| w[1] - w[0] < 0.1 / count);
     for (k, vertex) in vertices.iter_mut().enumerate() {
         vertex.along = if is_crowded {
@@ -147,7 +149,7 @@ fn separate_positions(mut vertices: Vec<SlitVertex>) -> Vec<SlitVertex> {
     vertices
 }
 
-/// A pair of corresponding vertices to be inserted.
+/// A pair of corresponding vertices to be inserted into the two polygons.
 struct NewVertexPair {
     /// Places on the source and on the target curve.
     places: [f64; 2],
@@ -217,7 +219,7 @@ impl SlitPassage<'_> {
     }
 
     /// Returns the passage's ends and existing vertices, each as a pair: position along the slit,
-    /// and unwrapped place on the other design's curve. Pairs ascend in the position.
+    /// and place on the other design's curve. Both ascend; places continue beyond 1.
     fn anchors(&self, shared: &SharedPolygons, vertices: &[SlitVertex]) -> Vec<[f64; 2]> {
         let across = |vertex: usize| shared.places[vertex][self.side.other()];
         let across_at = |place: f64| {
@@ -237,7 +239,8 @@ impl SlitPassage<'_> {
             anchors.extend(vertices.iter().filter_map(inner));
         }
         anchors.push([self.outer_fraction(1.0), across_at(to)]);
-        // Along the boundary loop, the places on the other curve ascend, so unwrap them.
+        // Along the boundary loop, the places on the other curve ascend, so add 1 where they start
+        // again at 0.
         for k in 1..anchors.len() {
             if anchors[k][1] < anchors[k - 1][1] {
                 anchors[k][1] += 1.0;

@@ -1,12 +1,12 @@
 //! Splits one part into several pieces, one for each part of the other design that it is matched
 //! with.
 //!
-//! Cuts are straight, between two places of the outer boundary. They are ranked by how well the
-//! areas and positions of the two sides agree with those of the parts to match, and by their
-//! length. The best few cuts are then rated by matching the pieces, and the best match wins.
-//! Several pieces are cut off one after another, along the line on which the parts to match lie. If
-//! pieces are many, the part is bisected repeatedly by the ranking alone, because the outline of a
-//! group of parts says little about its members.
+//! Cuts are straight, between two places of the outer boundary. They are ranked by two criteria:
+//! how well the areas and positions of the two pieces agree with those of the parts to match, and
+//! how short the cut is. The best few cuts are then rated by matching the pieces, and the best
+//! match wins. Several pieces are cut off one after another, along the line on which the parts to
+//! match lie. If pieces are many, the part is bisected repeatedly by the ranking alone, because the
+//! outline of a group of parts says little about its members.
 
 use super::super::boundary::match_curves;
 use super::super::curve::BoundaryCurve;
@@ -17,7 +17,7 @@ use crate::work::progress::Progress;
 use rayon::prelude::*;
 
 /// Number of places on the boundary between which cuts are tried (resource limit: the number of
-/// cuts grows with its square).
+/// cuts grows with the square of this number).
 const CUT_PLACES: u32 = 56;
 
 /// Number of best-ranked cuts whose pieces are matched (resource limit).
@@ -30,11 +30,12 @@ const AREA_WEIGHT: f64 = 1.0;
 const POSITION_WEIGHT: f64 = 0.6;
 /// Weight of a cut's length in the ranking of cuts (heuristic).
 const LENGTH_WEIGHT: f64 = 0.35;
-/// Weight of the rank relative to the match cost, where cuts are rated by both (heuristic).
+/// Weight of a cut's value in the ranking, relative to the cost of matching its pieces, in the
+/// rating of the best cuts (heuristic).
 const RANK_WEIGHT: f64 = 0.15;
 
-/// Maximum number of pieces that are cut off one after another, with matches of the best cuts. More
-/// pieces are found by bisection (resource limit: 100 pieces would take 40 s).
+/// Maximum number of pieces that are cut off one after another, each by the best of several matched
+/// cuts. For more pieces, the part is bisected (resource limit: 100 pieces would take 40 s).
 const MAX_SEQUENTIAL_PIECES: usize = 8;
 
 /// Splits a region into one piece for each of `parts`, in the same order. Returns `None` if no
@@ -82,7 +83,7 @@ fn bisect(
     let (first_half, second_half) = order.split_at(order.len() / 2);
     let selected = |order: &[usize]| order.iter().map(|&k| parts[k]).collect::<Vec<_>>();
     let (first_parts, other_parts) = (selected(first_half), selected(second_half));
-    // With a single candidate, the best-ranked cut is taken without matching.
+    // If only one cut may be matched, `cut_in_two` returns the best-ranked cut without matching it.
     let goal = SplitGoal::of(&first_parts, &other_parts);
     let [first, rest] = cut_in_two(&region, &goal, 1, progress)?;
     bisect(first, parts, first_half, pieces, progress)?;
@@ -111,13 +112,13 @@ fn centre(region: &Region) -> DVec2 {
     region.outer.bounds().centre()
 }
 
-/// The areas and positions of the two sides that a cut should produce.
+/// The areas and positions of the two pieces that a cut should produce.
 struct SplitGoal<'a> {
-    /// Parts intended for one side of the cut.
+    /// Parts with which the first piece is to be matched.
     first: &'a [&'a Region],
-    /// Parts intended for the other side of the cut.
+    /// Parts with which the other piece is to be matched.
     others: &'a [&'a Region],
-    /// Fraction of the region's area that the side for `first` should get.
+    /// Fraction of the region's area that the piece for `first` should get.
     share: f64,
     /// Vector from the centre of `first` to that of `others`, in units of the square root of their
     /// total area.
@@ -142,7 +143,7 @@ impl<'a> SplitGoal<'a> {
     }
 }
 
-/// Returns the two sides of the best cut, first the side for `goal.first`. `matched_cuts` is the
+/// Returns the two pieces of the best cut, first the piece for `goal.first`. `matched_cuts` is the
 /// number of best-ranked cuts whose pieces are matched; with 1, the best-ranked cut is returned
 /// without matching.
 fn cut_in_two(
@@ -156,7 +157,7 @@ fn cut_in_two(
         let [a, b] = &pieces.1;
         let (forward, swapped) = (rank(goal, a, b), rank(goal, b, a));
         let length_cost = LENGTH_WEIGHT * pieces.0 / region.area().sqrt();
-        // Either side may be the one for `goal.first`; take the assignment that ranks better.
+        // Either piece may be the one for `goal.first`; take the assignment that ranks better.
         if forward <= swapped {
             ranked.push((forward + length_cost, pieces.1));
         } else {

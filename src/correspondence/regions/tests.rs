@@ -231,7 +231,7 @@ fn parts_declared_unmatched_stay_unmatched_unless_linked() {
     for side in Side::BOTH {
         settings.lone.push(UnmatchedPart { side, at });
     }
-    // The single part is declared unmatched, so it is not split for the parts of the other side.
+    // The single part is declared unmatched, so it is not split for the parts of the other design.
     let found = parts(&two, &one, &settings);
     assert_eq!(found, [[Some(0), None], [Some(1), None], [None, Some(0)]]);
     let found = parts(&two, &two, &settings);

@@ -15,7 +15,6 @@ use std::rc::Rc;
 pub(super) struct EntityStyle {
     /// Name of the layer.
     pub layer: Rc<[u8]>,
-    /// Source of the entity's colour.
     pub colour: ColourSource,
 }
 
@@ -34,8 +33,8 @@ pub(super) enum ColourSource {
 /// Colours of layers by name; `None` for index 7 or an invalid index.
 pub(super) type LayerColours = HashMap<Vec<u8>, Option<Rgb>>;
 
-/// Name of DXF's special layer: an entity of a block that lies on this layer gets the layer of the
-/// block reference.
+/// Name of DXF's special layer. An entity on this layer, if it belongs to a block, gets the layer
+/// of the block reference.
 const OF_BLOCK: &[u8] = b"0";
 
 impl ColourSource {

@@ -1,10 +1,10 @@
 //! Curves of a DXF drawing (lines, arcs of ellipses and NURBS) and their flattening.
 //!
 //! Arcs are divided evenly: a chord over the angle h deviates by at most 1 − cos(h/2) times the
-//! larger radius. NURBS curves (Piegl and Tiller, The NURBS Book, 1997) are evaluated by de Boor's
-//! algorithm (1972). Each knot span is bisected until every piece is flat: three points inside the
-//! piece lie within the tolerance of its chord. The error of a NURBS curve is therefore estimated,
-//! not bounded.
+//! larger semi-axis. NURBS curves (Piegl and Tiller, The NURBS Book, 1997) are evaluated by de
+//! Boor's algorithm (1972). Each knot span is bisected until the curve over every interval is flat:
+//! three points of the curve lie within the tolerance of the interval's chord. The error of a NURBS
+//! curve is therefore estimated, not bounded.
 
 use crate::design::flatten::MAX_POINTS;
 use crate::geometry::{DVec2, distance_squared_to_segment};
@@ -14,7 +14,7 @@ use std::f64::consts::{PI, TAU};
 /// Maximum number of chords of an arc (resource limit).
 const MAX_ARC_PIECES: f64 = 4096.0;
 
-/// Maximum recursion depth of the bisection of each half of a knot span. A span gets at most 2048
+/// Maximum depth of the recursive bisection of one half of a knot span. A span gets at most 2048
 /// chords, 1024 per half (resource limit).
 const MAX_BISECTIONS: u32 = 10;
 
@@ -239,8 +239,8 @@ impl NurbsCurve {
                 if points.len() == start {
                     points.push(point(from));
                 }
-                // At least two pieces per span, because the midpoint of an S-shaped span lies on
-                // its chord.
+                // At least two chords per span, because the midpoint of an S-shaped span lies on
+                // the line between the ends of the span.
                 let middle = 0.5 * (from + to);
                 bisect(&point, [from, middle], tolerance, MAX_BISECTIONS, points);
                 bisect(&point, [middle, to], tolerance, MAX_BISECTIONS, points);

@@ -37,7 +37,7 @@ pub(super) struct DxfPath {
     pub layer_and_colour: (Rc<[u8]>, Option<Rgb>),
 }
 
-/// Definition of a block.
+/// Definition of a block: the entities that each reference to the block copies into the drawing.
 #[derive(Default)]
 struct DxfBlock {
     /// Point of the block that is placed at the insertion point of a reference.
@@ -86,7 +86,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<DxfDrawing, DxfError> {
     }
 }
 
-/// Groups the pairs of a file into records; reads one pair ahead.
+/// Reader of the records of a file. A record is a run of pairs (group code and value) that begins
+/// with group code 0. The reader is one pair ahead.
 struct RecordReader<'a> {
     pairs: PairReader<'a>,
     /// First pair of the next record; `None` at the end of the file.

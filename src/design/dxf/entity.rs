@@ -18,7 +18,7 @@ pub(super) struct DxfEntity {
     pub ink: EntityStyle,
 }
 
-/// Geometry of an entity.
+/// Geometry of an entity: its own curves, or a reference to a block.
 #[derive(Debug)]
 pub(super) enum EntityShape {
     /// Path of connected curves.
@@ -30,14 +30,14 @@ pub(super) enum EntityShape {
     Insert {
         /// Name of the block.
         block: Vec<u8>,
-        /// For each copy, the map from block coordinates, with the base point as origin, to the
-        /// coordinate system that contains the reference.
+        /// For each copy, the affine map from block coordinates, with the base point as origin, to
+        /// the coordinate system that contains the reference.
         places: Vec<DAffine2>,
     },
 }
 
 /// Maximum number of block copies that one INSERT makes (resource limit: a grid of 100 by 100;
-/// checked before the placements are allocated).
+/// checked before memory for the copies is allocated).
 const MAX_COPIES: i64 = 10_000;
 
 /// Record of the file: an entity or table entry with its pairs of group code and value.
@@ -116,8 +116,8 @@ impl<'a> DxfRecord<'a> {
         Ok(given.try_normalize().unwrap_or(DVec3::Z))
     }
 
-    /// Returns the map from the plane of the entity's own coordinate system at the given elevation
-    /// to the xy plane of the drawing.
+    /// Returns the affine map to the xy plane of the drawing from the plane z = `elevation` of the
+    /// entity's own coordinate system.
     fn plane_map(&self, elevation: f64) -> Result<DAffine2, DxfError> {
         let normal = self.normal()?;
         // The DXF Reference prescribes exactly this bound, 1/64.
@@ -302,7 +302,8 @@ fn open_path(curve: DxfCurve) -> EntityShape {
     }
 }
 
-/// Returns a path that consists of one arc, mapped by `plan`.
+/// Returns a path that consists of one arc, transformed by `plan`, the affine map to the xy plane
+/// of the drawing.
 fn arc_shape(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
     EntityShape::Path {
         is_closed: arc.is_full_ellipse(),
@@ -310,17 +311,17 @@ fn arc_shape(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
     }
 }
 
-/// Vertex of a polyline.
 struct PolylineVertex {
     point: DVec2,
-    /// Bulge of the segment that starts at this vertex: the tangent of a quarter of the arc's
+    /// Bulge of the line or arc that starts at this vertex: the tangent of a quarter of the arc's
     /// angle, or 0 for a line.
     bulge: f64,
 }
 
-/// Returns the path through the vertices of a polyline, mapped by `plan`.
+/// Returns the path through the vertices of a polyline, transformed by `plan`, the affine map to
+/// the xy plane of the drawing.
 fn polyline(corners: &[PolylineVertex], is_closed: bool, plan: &DAffine2) -> EntityShape {
-    // An open polyline has one segment fewer than it has vertices.
+    // An open polyline has one line or arc fewer than it has vertices.
     let last = corners.len().saturating_sub(1);
     let sides = if is_closed { corners.len() } else { last };
     let side = |i: usize| {

@@ -36,7 +36,7 @@ pub enum DxfError {
         at: DxfPlace,
         /// Type name as written in the file.
         kind: String,
-        /// Description of the fault.
+        /// Fault of the entity, as worded in the message.
         what: &'static str,
     },
     /// The drawing has too many objects, including copies of blocks.

@@ -9,7 +9,7 @@
 use crate::geometry::DVec2;
 use std::collections::{HashMap, HashSet};
 
-/// Result of joining curves.
+/// Closed rings of joined curves, and one end point of each curve that belongs to no ring.
 #[derive(Debug, Default)]
 pub(super) struct JoinedCurves {
     /// Closed rings; the last point of a ring is not its first.
@@ -189,7 +189,7 @@ impl TrailStep {
 
 /// Spatial hash that assigns end points to nodes, so that points close to each other share a node.
 struct EndpointIndex {
-    /// Origin of the grid.
+    /// Lower left corner of the grid cell (0, 0).
     origin: DVec2,
     /// Maximum distance between a node and its points; also the width of a grid cell.
     within: f64,

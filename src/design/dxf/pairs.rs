@@ -9,7 +9,7 @@ use crate::geometry::MAX_COORDINATE;
 /// Signature with which a binary DXF file begins.
 pub(in crate::design) const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
-/// Value of a pair.
+/// Value of a pair, as read from the file.
 #[derive(Clone, Copy, Debug)]
 enum GroupValue<'a> {
     /// Text, or a number in text form.
@@ -201,7 +201,7 @@ impl<'a> PairReader<'a> {
         Ok(text.trim_ascii())
     }
 
-    /// Reads a fixed number of bytes.
+    /// Reads the next `N` bytes of a binary file.
     fn take<const N: usize>(&mut self) -> Result<[u8; N], DxfError> {
         let at = self.place();
         let bytes = self.slice(N)?;

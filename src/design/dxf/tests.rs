@@ -242,8 +242,8 @@ fn a_flattened_circle_uses_its_tolerance() {
     }
 }
 
-/// Returns a square as an LWPOLYLINE on a layer, with its left edge at `x` and the additional pairs
-/// `more`.
+/// Returns a square as an LWPOLYLINE on a layer. Its left edge is at `x` and its lower edge on the
+/// x axis. `more` holds additional pairs of group code and value.
 fn square_on(layer: &str, x: f64, side: f64, more: &str) -> String {
     let (right, top) = (x + side, side);
     format!(
@@ -295,8 +295,8 @@ fn blocks_inherit_colours_from_their_reference() {
     );
     let insert = "0 INSERT 8 walls 62 3 2 tile 10 0 20 0";
     let found = painted(&[("TABLES", LAYERS), ("BLOCKS", &block), ("ENTITIES", insert)]);
-    // The square on layer 0 takes the colour of the reference's layer. The square with the colour
-    // BYBLOCK takes the reference's own colour.
+    // The square on layer 0 takes the colour of the layer on which the block reference lies. The
+    // square with the colour BYBLOCK takes the colour of the block reference itself.
     let expected = [
         (Some(Rgb([255, 0, 0])), "walls".to_owned(), 16.0),
         (Some(Rgb([0, 255, 0])), "other".to_owned(), 4.0),

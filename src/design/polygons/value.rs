@@ -21,7 +21,7 @@ pub enum PolygonsImportError {
     Value {
         /// Path of the value in the document, such as `.features[2].geometry`.
         path: String,
-        /// Fault of the value.
+        /// Reason why the value cannot be used.
         fault: PolygonsFault,
     },
     /// The file has too many JSON objects.

@@ -36,8 +36,9 @@ const MIN_FLAT_AREA: f64 = 0.6;
 /// in it without a flat pixel nearby belong to the background (heuristic).
 const BORDER_WIDTH: usize = 4;
 
-/// Number of rows and columns on each side of a pixel from which its candidate colours are
-/// collected (tolerance: an anti-aliased edge is two or three pixels wide).
+/// Number of rows and columns on each side of a pixel that are searched for its candidates, the
+/// flat colours to which the pixel may belong (tolerance: an anti-aliased edge is two or three
+/// pixels wide).
 const NEIGHBOURHOOD: usize = 2;
 
 /// Returns one or more paint layers per flat colour of a picture, lowest first; none if the colours
@@ -63,7 +64,7 @@ pub(in crate::design) fn flat_colour_layers(
                 paint: Some(Rgb(colours.flat[colour].0).into()),
                 name: String::new(),
             }),
-            // The colour had only specks, which have been removed.
+            // The colour had only islands below the speck size, which have been removed.
             Err(SilhouetteError::Empty { .. }) => {}
             Err(error) => return Err(error),
         }
@@ -102,16 +103,18 @@ impl PixelColour {
 struct ColourMatch {
     /// Bit mask of the candidates, the flat colours in the neighbourhood of the pixel.
     candidates: u32,
-    /// Index of the closest candidate in the list of flat colours.
+    /// Index, in the list of flat colours, of the candidate closest to the pixel's colour.
     closest: u8,
-    /// Distance from the pixel's colour to the closest candidate.
+    /// Distance from the pixel's colour to the closest candidate, 0 to 255.
     distance: u8,
-    /// Distance to the second closest candidate; `None` if there is only one.
+    /// Distance from the pixel's colour to the second closest candidate; `None` if there is only
+    /// one.
     second_distance: Option<u8>,
 }
 
 impl ColourMatch {
-    /// Finds the closest and second closest of the candidate colours to a pixel's colour.
+    /// Finds the closest and the second closest to a pixel's colour among the flat colours in the
+    /// bit mask `candidates`.
     fn of(ink: PixelColour, candidates: u32, flat: &[PixelColour]) -> Self {
         let mut pixel = Self {
             candidates,
@@ -147,7 +150,7 @@ struct FlatColours {
     ground: usize,
     /// Colours of the pixels, lowest row first.
     inks: Vec<PixelColour>,
-    /// Matches of the pixels, lowest row first.
+    /// Closest flat colours of each pixel, lowest row first.
     pixels: Vec<ColourMatch>,
 }
 
@@ -207,7 +210,7 @@ impl FlatColours {
             };
             let [own, other] = [own, other].map(f32::from);
             let share = (other - own) / (own + other);
-            // Samples must not be zero.
+            // Samples must not be zero: each pixel lies either inside or outside.
             if share == 0.0 { f32::EPSILON } else { share }
         };
         let (width, height) = self.size;
@@ -259,7 +262,7 @@ fn background(
         return Some(ground);
     }
     let mut counts = vec![0; flat.len()];
-    // The border zone is wider than the thin frame that some converters add around a picture.
+    // The border zone is wider than the thin line that some converters draw around a picture.
     let is_border = |&i: &usize| is_flat[i] && is_near_border(i, width, inks.len());
     for i in (0..inks.len()).filter(is_border) {
         counts[usize::from(ColourMatch::of(inks[i], u32::MAX, flat).closest)] += 1;

@@ -25,8 +25,8 @@ pub(super) struct TracedPoint {
 /// quadratic in this number; a longer line is split into several chords).
 const MAX_CHORD_POINTS: usize = 1024;
 
-/// Maximum distance by which a corner is moved from its traced point, in multiples of the point's
-/// slack (heuristic).
+/// Maximum distance by which a corner is moved from its traced point, in multiples of that point's
+/// uncertainty, [`TracedPoint::slack`] (heuristic).
 const MAX_CORNER_SHIFT: f64 = 2.0;
 
 /// Sine of the minimum angle between two lines, 30°, at which their intersection is used
@@ -56,8 +56,8 @@ pub(super) fn densify(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
     boundary.iter().zip(next).flat_map(between).collect()
 }
 
-/// Fits an outline to a closed boundary. `flatness` is the deviation, in pixels, that counts as
-/// invisible.
+/// Fits an outline to a closed boundary. `flatness` is the largest deviation, in pixels, that
+/// counts as invisible.
 pub(super) fn fit_outline(boundary: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
     if boundary.len() < 4 {
         return boundary.iter().map(|traced| traced.point).collect();
@@ -97,8 +97,9 @@ fn corners(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
 }
 
 /// Returns the indices of the boundary points that are vertices of the polygon with the fewest
-/// chords; each chord must pass within the slack of the points that it spans. Uses dynamic
-/// programming along the closed boundary, from the first point back to itself.
+/// chords; each chord must pass every point that it spans within that point's uncertainty,
+/// [`TracedPoint::slack`]. Uses dynamic programming along the closed boundary, from the first point
+/// back to itself.
 fn fewest_chords(
     count: usize,
     traced_at: &dyn Fn(usize) -> TracedPoint,
@@ -158,8 +159,8 @@ fn sharpest_point(boundary: &[TracedPoint]) -> usize {
     (best.unwrap_or(0) + reach) % count
 }
 
-/// Range of the directions in which a chord from the apex passes within the slack of all points
-/// given to [`Self::narrow`] so far.
+/// Range of the directions in which a chord from the apex passes every point given to
+/// [`Self::narrow`] so far within that point's uncertainty, [`TracedPoint::slack`].
 struct DirectionWedge {
     apex: DVec2,
     /// Right and left limiting directions; `None` if all directions are allowed.
@@ -178,8 +179,8 @@ impl DirectionWedge {
             .is_none_or(|[right, left]| right.perp_dot(to) >= 0.0 && to.perp_dot(left) >= 0.0)
     }
 
-    /// Restricts the range to directions in which a chord passes within the slack of the point
-    /// `by`; returns whether any direction remains.
+    /// Restricts the range to directions in which a chord passes the point `by` within that point's
+    /// uncertainty, [`TracedPoint::slack`]; returns whether any direction remains.
     fn narrow(&mut self, by: &TracedPoint) -> bool {
         let to = by.point - self.apex;
         let distance = to.length();
@@ -199,9 +200,10 @@ impl DirectionWedge {
                 if left.perp_dot(sides[1]) > 0.0 {
                     sides[1] = left;
                 }
-                // The range was narrower than half a turn, so the cross product of its sides is
-                // negative only if they have passed each other, that is, if the range is empty. The
-                // dot product is not positive if the point lies behind the apex.
+                // The range was narrower than half a turn. The cross product of its two limiting
+                // directions is therefore negative only if they have passed each other, that is, if
+                // the range is empty. The dot product is not positive if the point lies behind the
+                // apex.
                 return sides[0].perp_dot(sides[1]) >= 0.0 && sides[0].dot(to) > 0.0;
             }
         }
@@ -213,7 +215,7 @@ impl DirectionWedge {
 struct FittedLine {
     /// Centroid of the points.
     centroid: DVec2,
-    /// Unit normal.
+    /// Unit normal of the line.
     normal: DVec2,
     /// Sum of the squared distances of the points from the line.
     deviation: f64,
@@ -285,9 +287,10 @@ impl PrefixSums {
     }
 }
 
-/// Replaces each corner by a parabola that stays within the corner's slack. A corner stays sharp if
-/// its parabola would be shorter than [`MIN_ROUNDING`] demands or would differ from the corner by
-/// at most `flatness`. Outlines with fewer than four corners are returned unchanged.
+/// Replaces each corner by a parabola whose distance from the corner is at most the corner's
+/// uncertainty, [`TracedPoint::slack`]. A corner stays sharp if its parabola would be shorter than
+/// [`MIN_ROUNDING`] demands, or if it would pass the corner at a distance of at most `flatness`.
+/// Outlines with fewer than four corners are returned unchanged.
 fn round_corners(corners: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
     let count = corners.len();
     if count < 4 {

@@ -100,7 +100,7 @@ pub enum SvgError {
     Regions(#[from] RegionsError),
 }
 
-/// Returns the part of a message that lists the known ids.
+/// Returns the end of a message, which lists the known ids.
 fn known_ids(known: &[String]) -> String {
     match known {
         [] => "it has no ids; give the element one or import the whole drawing".to_owned(),

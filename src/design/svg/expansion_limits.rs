@@ -95,7 +95,7 @@ impl<'d> StyleReferences<'d> {
         sheet
     }
 
-    /// Adds the references of one style sheet.
+    /// Adds the ids to which the rules of one style sheet refer.
     fn read(&mut self, text: &'d str) {
         for rule in text.split('}') {
             let Some((selectors, body)) = rule.rsplit_once('{') else {
@@ -160,7 +160,7 @@ struct ExpandedSize {
     text: u64,
 }
 
-/// Computes expanded sizes with memoisation.
+/// Counter of expanded sizes; computes the size of each element only once.
 struct ExpansionCounter<'d, 'a> {
     document: &'d Document<'a>,
     /// First element with each id.

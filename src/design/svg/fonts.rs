@@ -8,8 +8,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use usvg::fontdb::{Database, Family, ID, Query, Source};
 use usvg::{FontFamily, FontResolver};
 
-/// Maximum number of searches in one drawing for another font that has a character which the chosen
-/// font lacks (resource limit: each search opens every font file).
+/// Maximum number of font searches in one drawing. A search looks for a font with a character that
+/// the chosen font lacks (resource limit: each search opens every font file).
 const MAX_SEARCHES: usize = 64;
 
 /// Font family for text that names none.
@@ -18,7 +18,7 @@ pub(super) const UNNAMED: &str = "serif";
 /// Font selection for one drawing, with a record of missing fonts and characters.
 #[derive(Default)]
 pub(super) struct FontLookup {
-    /// Number of searches so far for a font that has a character which the chosen font lacks.
+    /// Number of font searches so far; see [`MAX_SEARCHES`].
     searches: AtomicUsize,
     absent: Mutex<MissingFonts>,
 }
@@ -80,7 +80,6 @@ impl FontLookup {
     }
 }
 
-/// Returns whether a font family is installed.
 fn is_installed(fonts: &Database, family: Family) -> bool {
     let query = Query {
         families: &[family],

@@ -20,7 +20,7 @@ pub(super) fn names_a_colour(document: &Document) -> bool {
     })
 }
 
-/// Returns whether a value specifies a colour.
+/// Returns whether a value of one of the properties in [`PAINTS`] specifies a colour.
 fn is_colour(value: &str) -> bool {
     !NOTHING.contains(&value.trim())
 }

@@ -16,10 +16,11 @@ use i_overlay::float::single::SingleFloatOverlay;
 /// Closed polygons, filled by the non-zero winding rule.
 pub(super) type WindingRings = Vec<Vec<DVec2>>;
 
-/// Shapes sorted into alternating layers: even layers are ink, odd layers are paper.
+/// Shapes sorted into alternating layers: even layers are ink, odd layers are paper (white shapes,
+/// which erase the ink below them).
 pub(super) struct InkLayers {
     layers: Vec<Vec<WindingRings>>,
-    /// For each cell of the page, one plus the index of its top layer; 0 if the cell is empty.
+    /// For each grid cell of the page, one plus the index of its top layer; 0 if the cell is empty.
     z_order: ZOrderGrid,
 }
 
@@ -44,8 +45,8 @@ impl InkLayers {
             // as empty.
             return self.grow_to(0);
         };
-        // The shape goes into the top layer at its place if that layer is of the same kind, ink or
-        // paper; otherwise into the next layer.
+        // The shape goes into the highest layer in its grid cells if that layer is of the same
+        // kind, ink or paper; otherwise into the layer above that.
         let top = self.z_order.highest(&bounds).saturating_sub(1);
         let layer = top + usize::from((top % 2 == 1) != is_paper);
         self.z_order.raise(&bounds, layer + 1);

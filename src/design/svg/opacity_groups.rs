@@ -6,7 +6,7 @@ use super::shape::SvgShape;
 use crate::colour::Paint;
 use crate::geometry::{Bounds, DVec2};
 
-/// Maximum number of shapes in a group. In a larger group, covered parts are not subtracted
+/// Maximum number of shapes in a group. In a larger group, covered areas are not subtracted
 /// (resource limit: the shapes are compared in pairs).
 const MAX_SHAPES: usize = 4096;
 
@@ -17,7 +17,7 @@ const MAX_POINTS: usize = 1_000_000;
 /// Applies a group's opacity to its shapes; returns the shapes, and whether the result is exact.
 ///
 /// SVG fades the group as a whole, so a shape must not show through another shape of the group.
-/// Covered parts are therefore subtracted before each shape is faded separately. The result is
+/// Covered areas are therefore subtracted before each shape is faded separately. The result is
 /// inexact if the subtraction would exceed a limit, or if a covering shape is itself translucent.
 pub(super) fn apply_group_opacity(
     shapes: Vec<SvgShape>,
@@ -28,7 +28,8 @@ pub(super) fn apply_group_opacity(
         .into_iter()
         .flat_map(SvgShape::split_stroke)
         .collect();
-    // Shapes of equal paint are united; otherwise their overlaps and seams would become visible.
+    // Shapes of equal paint are united; otherwise their overlaps and common edges would become
+    // visible.
     let mut shapes = merge_shapes(shapes, page);
     let boxes: Vec<Option<Bounds>> = shapes.iter().map(SvgShape::bounds).collect();
     let may_overlap =

@@ -66,7 +66,6 @@ struct LayerKey {
 type PaintKey = ([u8; 3], u64);
 
 impl LayerKey {
-    /// Returns the key of a shape.
     fn of(shape: &SvgShape) -> Self {
         let bits = |paint: Paint| (paint.colour.0, paint.opacity.to_bits());
         let line = shape.stroke.as_ref().map(|edge| {
@@ -102,13 +101,13 @@ fn gradient_bits(gradient: &Gradient) -> Vec<u64> {
     all.map(f64::to_bits).collect()
 }
 
-/// Layers under construction.
+/// Stack of paint layers under construction.
 struct PaintStack {
     /// Layers from bottom to top: for each, its first shape and the rings of its other shapes.
     layers: Vec<(SvgShape, Vec<WindingRings>)>,
     /// For each key, the indices of its layers in ascending order.
     layers_by_key: BTreeMap<LayerKey, Vec<usize>>,
-    /// For each cell of the page, one plus the index of its top layer; 0 if the cell is empty.
+    /// For each grid cell of the page, one plus the index of its top layer; 0 if the cell is empty.
     z_order: ZOrderGrid,
 }
 

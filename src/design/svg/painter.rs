@@ -29,7 +29,6 @@ pub(super) struct PaintedDrawing {
     pub repairs: [(FillRule, Repairs); 2],
     /// Number of paths with a visible stroke but no fill.
     pub bare_strokes: usize,
-    /// Numbers of ignored or approximated features.
     pub approximations: ApproximationCounts,
 }
 
@@ -187,7 +186,7 @@ impl SvgPainter<'_> {
         Ok(())
     }
 
-    /// Returns the map from the coordinates of a path to the page, y up.
+    /// Returns the affine map from the coordinates of a path to the page, y up.
     fn page_from_path(&self, path: &Path) -> DAffine2 {
         let flip_y = DAffine2::from_cols_array(&[1.0, 0.0, 0.0, -1.0, 0.0, self.page.y]);
         flip_y * affine(path.abs_transform())
@@ -260,8 +259,8 @@ impl SvgPainter<'_> {
         let rings = self.rings(path.data(), path.abs_transform())?;
         let rule = match path.fill().map(usvg::Fill::rule) {
             Some(usvg::FillRule::NonZero) => FillRule::NonZero,
-            // A path without a fill has no rule; the even-odd rule keeps all its rings, even nested
-            // ones.
+            // A path without a fill has no fill rule; the even-odd rule keeps all its rings, even
+            // nested ones.
             Some(usvg::FillRule::EvenOdd) | None => FillRule::EvenOdd,
         };
         let crossings = Repairs::count_contacts(&rings).crossings;

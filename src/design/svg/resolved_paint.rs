@@ -47,7 +47,7 @@ pub(super) fn resolve_paint(paint: &usvg::Paint, opacity: Opacity) -> Option<Res
         ..paint
     };
     let paint = fade(mean);
-    // A gradient with a singular frame cannot be drawn and is replaced by its mean.
+    // A gradient whose affine map `frame` is singular cannot be drawn and is replaced by its mean.
     let is_invertible = |gradient: &Gradient| {
         let determinant = gradient.frame.matrix2.determinant();
         determinant.is_finite() && determinant != 0.0
@@ -64,7 +64,8 @@ pub(super) fn resolve_paint(paint: &usvg::Paint, opacity: Opacity) -> Option<Res
     })
 }
 
-/// Converts the stops, spread and transform of a gradient with the given geometry and frame.
+/// Converts the colour stops, spread and transform of a gradient. `frame` is the affine map from
+/// the coordinates of `geometry` to those to which that transform applies.
 fn convert_gradient(
     gradient: &BaseGradient,
     geometry: GradientGeometry,
@@ -89,7 +90,6 @@ fn convert_gradient(
     }
 }
 
-/// Returns a point in double precision.
 fn point(x: f32, y: f32) -> DVec2 {
     DVec2::new(x.into(), y.into())
 }
@@ -100,7 +100,6 @@ pub(super) fn affine(t: Transform) -> DAffine2 {
     DAffine2::from_cols_array(&columns)
 }
 
-/// Converts a `usvg` colour.
 fn rgb(colour: Color) -> Rgb {
     Rgb([colour.red, colour.green, colour.blue])
 }

@@ -30,7 +30,7 @@ impl SvgShape {
         Bounds::of(self.rings.iter().chain(edge).flatten().copied())
     }
 
-    /// Returns the number of points of the fill.
+    /// Returns the number of points of `rings`, without those of an attached stroke.
     pub(super) fn points(&self) -> usize {
         self.rings.iter().map(Vec::len).sum()
     }

@@ -524,7 +524,7 @@ fn layers_keep_strokes_opacity_and_order() {
         <circle cx="40" cy="30" r="9"/></g>"##;
     let cloud = stroked(cloud, None).expect("a cloud").paint_layers;
     assert_eq!((cloud.len(), cloud[0].regions.len()), (1, 1));
-    // Covered parts of shapes in a translucent group are removed.
+    // Covered areas of shapes in a translucent group are removed.
     assert_near(found[0].1, 200.0);
     assert_near(found[2].1, 22.0 * 22.0 - 18.0 * 18.0);
 }

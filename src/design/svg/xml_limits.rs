@@ -37,7 +37,7 @@ pub(super) fn check_xml_text(text: &str) -> Result<(), SvgError> {
 fn check_attributes(text: &str) -> Result<(), SvgError> {
     let mut comparisons = 0;
     let mut end = 0;
-    // Attribute values cannot contain "<", so each part holds at most one element.
+    // Attribute values cannot contain "<", so each substring holds at most one element.
     for element in text.split('<') {
         let is_quoted = |rest: &&str| rest.trim_start().starts_with(['"', '\'']);
         let attributes = element.split('=').skip(1).filter(is_quoted).count() as u64;

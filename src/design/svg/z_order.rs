@@ -11,7 +11,7 @@ const CELLS: usize = 64;
 pub(super) struct ZOrderGrid {
     /// Width and height of the page.
     page: DVec2,
-    /// Heights, row by row from the bottom.
+    /// Height of each cell, row by row from the bottom.
     cells: Vec<usize>,
 }
 

@@ -20,7 +20,7 @@ pub struct TrussParts {
     /// Loads, each with its node.
     #[serde(default)]
     pub loads: Vec<TrussLoad>,
-    /// Cross-sectional area of each bar, positive; empty if not given.
+    /// Cross-sectional area of each bar, positive, in any unit; empty if not given.
     #[serde(default)]
     pub areas: Vec<f64>,
     /// Colour of each bar; empty if not given.
@@ -34,7 +34,7 @@ pub struct TrussParts {
     pub bar_materials: Vec<u32>,
 }
 
-/// Support of a node.
+/// Support of a node, which can fix its displacement along x and along y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrussSupport {
@@ -51,7 +51,7 @@ pub struct TrussSupport {
 pub struct TrussLoad {
     /// Node index, counted from 0.
     pub node: u32,
-    /// Force vector, y up.
+    /// Force vector, y up, in any unit.
     pub force: DVec2,
 }
 
@@ -61,10 +61,10 @@ pub struct TrussLoad {
 pub struct TrussMaterial {
     /// Display name.
     pub name: String,
-    /// Young's modulus, positive.
+    /// Young's modulus, positive, in any unit; `None` if not given.
     #[serde(default)]
     pub youngs_modulus: Option<f64>,
-    /// Mass per volume, positive.
+    /// Mass per volume, positive, in any unit; `None` if not given.
     #[serde(default)]
     pub density: Option<f64>,
 }
@@ -88,7 +88,7 @@ pub enum TrussInputError {
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("node {0} {RANGE_MESSAGE}")]
     CoordinateRange(usize),
-    /// All nodes lie in the same place, or nearly so.
+    /// The truss is too small, or too far from the origin for its size.
     #[error(transparent)]
     Size(#[from] DesignSizeError),
     /// A number is not finite, or not positive although it must be.
@@ -96,25 +96,25 @@ pub enum TrussInputError {
     Number {
         /// Kind of the entry, such as "load".
         what: &'static str,
-        /// Index of the entry.
+        /// Index of the entry in its list.
         index: usize,
-        /// Advice on the allowed numbers.
+        /// Advice for the user: which numbers are allowed.
         rule: &'static str,
     },
-    /// An entry refers to an index that does not exist.
+    /// A bar, support or load refers to a node or material that does not exist.
     #[error(
         "{what} {index} refers to {kind} {named}, but there are {count}, counted from 0; correct the number"
     )]
     OutOfRange {
-        /// Kind of the referring entry.
+        /// Kind of the referring entry, such as "load".
         what: &'static str,
-        /// Index of the referring entry.
+        /// Index of the referring entry in its list.
         index: usize,
-        /// Kind of the missing entry.
+        /// Kind of the missing entry: "node" or "material".
         kind: &'static str,
-        /// Index that does not exist.
+        /// Index of the missing entry.
         named: u32,
-        /// Number of entries of that kind.
+        /// Number of entries of the missing kind that exist.
         count: usize,
     },
     /// A bar has no length: both ends are the same node, or two nodes at the same position.
@@ -253,7 +253,7 @@ impl TrussParts {
                 let nodes = [a, b];
                 return Err(TrussInputError::NoLength { bar, nodes });
             }
-            // Bars are undirected.
+            // Bars have no direction: [a, b] and [b, a] are the same bar.
             if let Some(first) = seen.insert([a.min(b), a.max(b)], bar) {
                 let second = bar;
                 return Err(TrussInputError::Duplicate { first, second });

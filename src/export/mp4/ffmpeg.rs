@@ -83,7 +83,7 @@ pub(super) fn run(
         .stderr(Stdio::piped())
         .spawn()?;
     let (stdin, stderr) = (child.stdin.take(), child.stderr.take());
-    // Messages are read while frames are fed, so that neither side waits for a full pipe.
+    // Messages are read while frames are fed, so that neither process waits for a full pipe.
     let words = thread::spawn(|| stderr.map(collect_messages).unwrap_or_default());
     let status = thread::scope(|scope| {
         // Cancellation is watched on another thread, because feeding blocks while ffmpeg takes no

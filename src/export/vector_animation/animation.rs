@@ -32,8 +32,8 @@ use super::{record, simplify};
 pub struct VectorAnimation {
     pub(super) size: PixelSize,
     pub(super) ground: Option<Rgb>,
-    /// Pieces (intervals of t with a constant set of shapes) by ascending t. Each is shown until
-    /// the next one begins.
+    /// Animation pieces (intervals of t with a constant set of shapes) by ascending t. Each is
+    /// shown until the next one begins.
     pub(super) pieces: Vec<AnimationPiece>,
     pub(super) timeline: FilmTimeline,
     pub(super) stops: Vec<(f64, String)>,
@@ -73,13 +73,13 @@ impl VectorAnimation {
         drawing
     }
 
-    /// Returns the index of the piece that is shown at `t`.
+    /// Returns the index of the animation piece that is shown at `t`.
     pub(super) fn piece_at(&self, t: f64) -> usize {
         let after = self.pieces.partition_point(|piece| piece.from <= t);
         after.saturating_sub(1)
     }
 
-    /// Returns the first and the last t of the recording.
+    /// Returns the first and the last t of the animation.
     pub(super) fn time_range(&self) -> [f64; 2] {
         let first = self.pieces.first().map_or(0.0, |piece| piece.from);
         [first, self.pieces.last().map_or(first, |piece| piece.to)]

@@ -1,9 +1,9 @@
 //! Chooses the fewest keyframes between which linear interpolation stays within a tolerance.
 //!
-//! Keyframes are a subset of the samples. The lines that start at a given keyframe and pass all
-//! following samples up to the current one within the tolerance have a range of slopes, which each
-//! sample narrows. A sample that one of these lines hits exactly can be the next keyframe. The
-//! smallest set of keyframes is then a shortest path (Imai and Iri 1988).
+//! Keyframes are a subset of the samples. From a given keyframe, lines of a certain range of slopes
+//! pass all samples so far within the tolerance; each further sample narrows this range. A sample
+//! that lies on one of these lines can be the next keyframe. The smallest set of keyframes is then
+//! a shortest path from the first sample to the last (Imai and Iri 1988).
 
 /// Returns the indices of the fewest rows, including the first and the last, such that linear
 /// interpolation between them reproduces every number of all other rows within the tolerance. A row
@@ -21,7 +21,7 @@ pub(super) fn fewest_keys(places: &[f64], rows: &[Vec<f64>], tolerance: f64) -> 
         reach(places, rows, tolerance, from, |to| {
             let keys: usize = next_keys[to].0 + 1;
             // Of the rows that lead to equally few keyframes, the last is used, because it gives
-            // the longest segment.
+            // the longest line.
             if keys <= best.0 {
                 best = (keys, to);
             }

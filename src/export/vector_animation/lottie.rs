@@ -26,9 +26,9 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     let timeline = &animation.timeline;
     let frames = timeline.frames();
     let (width, height) = (animation.size.width(), animation.size.height());
-    // Players take a remapped time that equals the number of frames of the film to mean the end,
-    // and show an earlier moment instead. The largest remapped time is the length of the
-    // precomposition. It would equal that number only for a film of one frame, so the
+    // If a remapped time equals the number of frames of the film, players treat it as the end and
+    // show an earlier moment instead. The largest remapped time is the length of the
+    // precomposition. For a film of one frame, this length would equal the number of frames, so the
     // precomposition of such a film is one frame longer.
     let length = if timeline.pass_frames == frames {
         frames + 1
@@ -48,8 +48,8 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     let layers = layers(animation, &stations);
     let last = layers.len().saturating_sub(1);
     let scenes = layers.iter().enumerate().map(|(k, layer)| {
-        // The first scene begins at 0, and the last one ends after the end of the film, so that
-        // rounding in a player never hides them.
+        // The first scene (consecutive animation pieces with the same shapes) begins at 0, and the
+        // last one ends after the end of the film, so that rounding in a player never hides them.
         let from = if k == 0 { 0.0 } else { layer.from };
         let to = if k == last { length + 1.0 } else { layer.to };
         scene(layer, k, [from, to])
@@ -100,7 +100,7 @@ fn identity_transform() -> Value {
     })
 }
 
-/// Returns the Lottie shape layer of one scene.
+/// Returns the Lottie shape layer of one scene (consecutive animation pieces with the same shapes).
 fn scene(layer: &SceneLayer, number: usize, [from, to]: [f64; 2]) -> Value {
     // Lottie lists the topmost shape first.
     let topmost_first = layer.shapes.iter().rev();
@@ -158,7 +158,7 @@ fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     group
 }
 
-/// End of an open line, by its number in Lottie (`lc`).
+/// Cap at the ends of an open line. The values are those of Lottie's property `lc`.
 #[derive(Clone, Copy)]
 enum LineCap {
     Butt = 1,

@@ -28,8 +28,8 @@ use super::simplify::simplify;
 /// terms by up to half a step displaces a point by less than a twentieth of a pixel on average).
 const STEP_PX: f64 = 1.0 / 24.0;
 
-/// Steps to which the points of a shape are rounded if it does not move within its piece, in
-/// pixels, the finest first. The first step with which the page is small enough is used, or else
+/// Steps to which the points of a shape are rounded if it does not move within its animation piece,
+/// in pixels, the finest first. The first step with which the page is small enough is used, or else
 /// the last one (heuristic).
 const STILL_PX: [f64; 4] = [1.0 / 16.0, 1.0 / 12.0, 1.0 / 10.0, 1.0 / 8.0];
 

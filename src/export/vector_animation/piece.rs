@@ -1,5 +1,5 @@
-//! Pieces of a vector animation: a constant set of shapes between two times, with a Chebyshev
-//! series for each point.
+//! Animation piece: a constant set of shapes between two values of t, with a Chebyshev series for
+//! each point.
 
 use crate::geometry::DVec2;
 
@@ -9,30 +9,31 @@ use super::shape::PosedShape;
 /// A constant set of shapes between two values of t, which may be equal.
 #[derive(Clone, Debug)]
 pub(super) struct AnimationPiece {
-    /// First t of the piece.
+    /// First t of the interval.
     pub from: f64,
-    /// Last t of the piece.
+    /// Last t of the interval.
     pub to: f64,
     /// Shapes in painting order, the lowest first.
     pub shapes: Vec<MovingShape>,
-    /// Whether the piece begins with the shapes of the previous piece, in the same places.
+    /// Whether the shapes at the start are those at the end of the previous animation piece, in the
+    /// same places.
     pub is_continuation: bool,
 }
 
-/// A shape and its motion from the first to the last t of a piece.
+/// A shape and its motion over the interval of an animation piece.
 #[derive(Clone, Debug)]
 pub(super) struct MovingShape {
-    /// The shape at the beginning of the piece.
+    /// The shape at the beginning of the interval.
     pub first: PosedShape,
-    /// Chebyshev coefficients of the shape's points, term by term.
+    /// Chebyshev coefficients: element j holds the coefficient of degree j for each point.
     pub terms: Vec<Vec<DVec2>>,
     /// Appearances (colour, width and gradient numbers) at evenly spaced t from the beginning to
-    /// the end of the piece. There is only one if the appearance is constant.
+    /// the end of the interval. There is only one if the appearance is constant.
     pub appearances: Vec<Vec<f64>>,
 }
 
 impl AnimationPiece {
-    /// Returns the shapes at `t`. Outside the piece, returns those of its nearer end.
+    /// Returns the shapes at `t`, which is clamped to the interval.
     pub(super) fn at(&self, t: f64) -> Vec<PosedShape> {
         let length = self.to - self.from;
         let s = if length > 0.0 {
@@ -45,7 +46,7 @@ impl AnimationPiece {
 }
 
 impl MovingShape {
-    /// Returns the shape at the fraction `s` of its piece, in [0, 1].
+    /// Returns the shape at the fraction `s` in [0, 1] of the interval.
     pub(super) fn at(&self, s: f64) -> PosedShape {
         PosedShape {
             form: self.first.form.clone(),
@@ -54,7 +55,7 @@ impl MovingShape {
         }
     }
 
-    /// Returns the appearance at the fraction `s` of the piece, interpolated linearly.
+    /// Returns the appearance at the fraction `s` in [0, 1] of the interval, interpolated linearly.
     fn appearance_at(&self, s: f64) -> Vec<f64> {
         let last = self.appearances.len() - 1;
         let position = s * last as f64;

@@ -1,4 +1,4 @@
-//! Records the drawings of a camera as pieces of polynomials in t.
+//! Records the drawings of a camera as animation pieces: intervals of t with polynomial motion.
 //!
 //! In each interval of t, the path of each point is fitted by a Chebyshev series, and the series
 //! are tested at moments not used for the fit. If they are not accurate enough, the interval is
@@ -25,28 +25,30 @@ const FIT_TOLERANCE_PX: f64 = 0.02;
 /// half of [`FIT_TOLERANCE_PX`]).
 const TRUNCATION_PX: f64 = 0.01;
 
-/// Largest jump of a point from one piece to the next, in pixels, with which the second piece still
-/// counts as a continuation of the first (tolerance: half of `VectorAnimation::TOLERANCE_PX`).
+/// Largest jump of a point from one animation piece to the next, in pixels, with which the second
+/// piece still counts as a continuation of the first (tolerance: half of
+/// `VectorAnimation::TOLERANCE_PX`).
 const JUMP_PX: f64 = 0.1;
 
-/// Precision with which the moments are located at which shapes appear or disappear, as a fraction
-/// of the range of t of the film (tolerance: well below one frame).
+/// Precision with which the t of an appearance or a disappearance of a shape is located, as a
+/// fraction of the range of t of the film (tolerance: well below one frame).
 const CHANGE_PRECISION: f64 = 1e-6;
 
 /// Length below which an interval is not bisected any further, as a fraction of the range of t of
 /// the film (resource limit: motion within such an interval becomes a jump).
 const MIN_LENGTH: f64 = 1e-4;
 
-/// Maximum number of pieces (resource limit: bounds the export time and the size of the file).
-/// Films that would need more are stored frame by frame.
+/// Maximum number of animation pieces (resource limit: bounds the export time and the size of the
+/// file). Films that would need more are stored frame by frame.
 const MAX_PIECES: usize = 400;
 
-/// Stride, in frames, at which contours are counted to estimate the number of pieces (resource
-/// limit: each count draws a frame).
+/// Stride, in frames, at which contours are counted to estimate the number of animation pieces
+/// (resource limit: each count draws a frame).
 const PREVIEW_STRIDE: usize = 4;
 
-/// Number of equal intervals of a piece at whose ends colours, widths and gradients are sampled. If
-/// none of them changes within the piece, there is only one sample (heuristic).
+/// Number of equal intervals into which an animation piece is divided. Colours, widths and
+/// gradients are sampled at the ends of these intervals. If none of them changes within the piece,
+/// there is only one sample (heuristic).
 const LOOK_INTERVALS: usize = 16;
 
 /// Maximum difference at which colours, widths and gradient numbers count as equal: relative for
@@ -56,7 +58,7 @@ const LOOK_TOLERANCE: f64 = 0.002;
 /// Shapes of a drawing at one moment, the lowest first.
 type ShapeSnapshot = Vec<PosedShape>;
 
-/// Returns the pieces of a film, by ascending t.
+/// Returns the animation pieces of a film, by ascending t.
 pub(super) fn record(
     camera: &Camera,
     film: &FilmSpec,
@@ -107,8 +109,8 @@ impl AnimationRecorder<'_> {
         items.iter().filter_map(PosedShape::of).collect()
     }
 
-    /// Stores each frame as a piece without motion. The piece extends halfway to the frames before
-    /// and after it.
+    /// Stores each frame as an animation piece without motion. The piece extends halfway to the
+    /// frames before and after it.
     fn record_frames(&mut self, times: &[f64]) -> Result<(), ExportError> {
         self.pieces.clear();
         for (k, &t) in times.iter().enumerate() {
@@ -122,8 +124,8 @@ impl AnimationRecorder<'_> {
     }
 
     /// Returns a lower bound on the number of contours that appear or disappear. Each of these
-    /// changes ends a piece, and dozens of frames must be evaluated to locate it. Locating
-    /// thousands of changes would take minutes.
+    /// changes ends an animation piece, and dozens of frames must be evaluated to locate it.
+    /// Locating thousands of changes would take minutes.
     fn min_changes(&mut self, times: &[f64]) -> Result<usize, ExportError> {
         let (mut changes, mut before) = (0, None);
         for &t in times.iter().step_by(PREVIEW_STRIDE) {
@@ -135,14 +137,14 @@ impl AnimationRecorder<'_> {
         Ok(changes)
     }
 
-    /// Records the whole range of t in smooth pieces. Returns `false` if there would be more than
-    /// [`MAX_PIECES`].
+    /// Records the whole range of t in smooth animation pieces. Returns `false` if there would be
+    /// more than [`MAX_PIECES`].
     fn record_smooth(&mut self, times: &[f64]) -> Result<bool, ExportError> {
         let (Some(&from), Some(&to)) = (times.first(), times.last()) else {
             return Ok(true);
         };
         let mut cuts = self.camera.sequence.break_times();
-        // Colours change only between the first and the last design. The range is cut at both,
+        // Colours change only between the first and the last design. The range is split at both,
         // because colours have a kink there.
         cuts.extend([0.0, self.camera.sequence.end()]);
         cuts.retain(|&cut| from < cut && cut < to);
@@ -167,8 +169,8 @@ impl AnimationRecorder<'_> {
         Ok(true)
     }
 
-    /// Records an interval as one piece, or returns the two intervals into which it must be split.
-    /// `range` is the length of the whole range of t.
+    /// Records an interval as one animation piece, or returns the two intervals into which it must
+    /// be split. `range` is the length of the whole range of t.
     fn fit_or_split(&mut self, [from, to]: [f64; 2], range: f64) -> Option<[[f64; 2]; 2]> {
         if to <= from {
             let shapes = self.moment(from).into_iter().map(static_shape).collect();
@@ -217,7 +219,8 @@ impl AnimationRecorder<'_> {
         [low, high]
     }
 
-    /// Samples the appearances of all shapes at uniform t, if any of them changes within the piece.
+    /// Samples the appearances of all shapes at uniform t, if any of them changes within the
+    /// animation piece.
     fn with_appearances(
         &mut self,
         [from, to]: [f64; 2],
@@ -239,7 +242,7 @@ impl AnimationRecorder<'_> {
             let s = k as f64 / LOOK_INTERVALS as f64;
             let moment = self.moment(from * (1.0 - s) + to * s);
             // A shape that exists only between two Chebyshev nodes is missing in `moments`, but may
-            // exist at this t. Then the appearances at the start of the piece are used.
+            // exist at this t. Then the appearances at the start of the animation piece are used.
             let sampled = if moment.len() == shapes.len() {
                 &moment
             } else {
@@ -255,7 +258,7 @@ impl AnimationRecorder<'_> {
         shapes
     }
 
-    /// Adds a piece at the end.
+    /// Adds an animation piece at the end.
     fn push(&mut self, from: f64, to: f64, shapes: Vec<MovingShape>) {
         self.pieces.push(AnimationPiece {
             from,
@@ -275,13 +278,13 @@ fn static_shape(posed: PosedShape) -> MovingShape {
     }
 }
 
-/// Returns whether two moments have the same shapes, regardless of positions and colours.
+/// Returns whether two snapshots have the same shapes, regardless of positions and colours.
 fn have_same_shapes(a: &ShapeSnapshot, b: &ShapeSnapshot) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.has_form_of(b))
 }
 
-/// Fits series through every second moment. Returns `None` if the moments in between deviate too
-/// much, unless `must_fit`.
+/// Fits Chebyshev series through every second of the `moments`. Returns `None` if the other moments
+/// deviate too much, unless `must_fit`.
 fn fit_series(moments: &[ShapeSnapshot], must_fit: bool) -> Option<Vec<MovingShape>> {
     let fit = |k: usize| {
         let points = |m: usize| moments[m][k].points.as_slice();
@@ -338,7 +341,8 @@ fn reduce_samples(looks: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     looks
 }
 
-/// Returns whether a piece begins with the shapes of the previous one, in the same places.
+/// Returns whether the shapes at the start of `piece` are those at the end of `before`, in the same
+/// places.
 fn continues(before: &AnimationPiece, piece: &AnimationPiece) -> bool {
     let (end, start) = (before.at(before.to), piece.at(piece.from));
     let is_near =

@@ -74,7 +74,7 @@ pub(super) struct PosedShape {
     /// Points of the shape in the order of its path commands, in pixels.
     pub points: Vec<DVec2>,
     /// Colour, opacity and width, followed by the numbers of the gradient, if any: its affine
-    /// frame, its focus and inner radius if it is radial, and its stops.
+    /// transform, its focus and inner radius if it is radial, and its stops.
     pub appearance: Vec<f64>,
 }
 

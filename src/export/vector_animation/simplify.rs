@@ -22,12 +22,12 @@ const TOLERANCE_PX: f64 = 0.04;
 /// (tolerance: as for moving shapes, although no interpolation error adds to it).
 pub(super) const STATIC_TOLERANCE_PX: f64 = 0.04;
 
-/// Number of equal intervals of a moving piece at whose ends distances are measured (resource
-/// limit: the time to simplify is proportional to it).
+/// Number of equal intervals into which a moving animation piece is divided. Distances are measured
+/// at the ends of these intervals (resource limit: the time to simplify is proportional to it).
 const MOMENTS_PER_PIECE: usize = 8;
 
-/// Simplifies all shapes. Consecutive pieces with the same shapes lose the same points. Shapes that
-/// do not move are simplified with the tolerance `still_px`.
+/// Simplifies all shapes. Consecutive animation pieces with the same shapes lose the same points.
+/// Shapes that do not move are simplified with the tolerance `still_px`.
 pub(super) fn simplify(pieces: &mut [AnimationPiece], still_px: f64) {
     let mut from = 0;
     while from < pieces.len() {
@@ -41,8 +41,8 @@ pub(super) fn simplify(pieces: &mut [AnimationPiece], still_px: f64) {
     }
 }
 
-/// Simplifies the shape with index `k` in all pieces of a scene (consecutive pieces with the same
-/// shapes).
+/// Simplifies the shape with index `k` in all pieces of a scene (consecutive animation pieces with
+/// the same shapes).
 fn simplify_shape(scene: &mut [AnimationPiece], k: usize, still_px: f64) {
     let verbs = match &*scene[0].shapes[k].first.form {
         ShapeForm::Fill { verbs, .. } | ShapeForm::Stroke { verbs, .. } => verbs,
@@ -97,7 +97,7 @@ fn simplify_shape(scene: &mut [AnimationPiece], k: usize, still_px: f64) {
     }
 }
 
-/// Returns the positions of a shape's points at sampled moments of all pieces of a scene.
+/// Returns the positions of a shape's points at sampled moments of all animation pieces in `scene`.
 fn moments(scene: &[AnimationPiece], k: usize) -> Vec<Vec<DVec2>> {
     let of_piece = |piece: &AnimationPiece| {
         let terms = piece.shapes[k].terms.clone();
@@ -112,9 +112,10 @@ fn moments(scene: &[AnimationPiece], k: usize) -> Vec<Vec<DVec2>> {
     scene.iter().flat_map(of_piece).collect()
 }
 
-/// Returns the indices of the ring's points that remain, in ascending order. At least three remain.
+/// Returns the indices of the points of the closed polygon `ring` that remain, in ascending order.
+/// At least three remain.
 fn indices_to_keep(moments: &[Vec<DVec2>], ring: Range<usize>, tolerance: f64) -> Vec<usize> {
-    // The ring is split at its first point and at the point farthest from it.
+    // The polygon is split at its first point and at the point farthest from that point.
     let distance = |&i: &usize| {
         let squares = moments.iter().map(|m| m[i].distance_squared(m[ring.start]));
         squares.sum::<f64>()
@@ -141,7 +142,7 @@ fn indices_to_keep(moments: &[Vec<DVec2>], ring: Range<usize>, tolerance: f64) -
         }
     }
     if indices.len() < 3 {
-        // A degenerate ring (a line or a point) keeps all its points.
+        // A degenerate polygon (a line or a point) keeps all its points.
         return ring.collect();
     }
     indices.sort_unstable();

@@ -335,7 +335,7 @@ fn pair(p: DVec2, is_next: bool) -> String {
     format!("{before}{x}{}{y}", between(&y))
 }
 
-/// Returns the stroke attributes of a shape that are constant.
+/// Returns the constant stroke attributes of a shape.
 fn stroke_attributes(form: &ShapeForm) -> String {
     let join = match form {
         ShapeForm::Stroke { join, .. } => match join {

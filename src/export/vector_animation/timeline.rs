@@ -98,8 +98,8 @@ impl FilmTimeline {
 /// straight line).
 const RIDGE: f64 = 1e-9;
 
-/// Course of t from one frame to another, as a cubic Bézier curve. Time and t are both normalised
-/// to [0, 1]; the handles are at one third and two thirds of the time.
+/// Cubic Bézier curve of t over time, from one frame to another. Time and t are both normalised to
+/// [0, 1]; the handles are at one third and two thirds of the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TimelineCurve {
     /// Number of the first frame of the curve.

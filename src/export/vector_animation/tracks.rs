@@ -1,8 +1,8 @@
 //! Arranges a vector animation into layers over time, and reduces each property of a shape to
 //! keyframes.
 //!
-//! A scene is a maximal run of pieces with the same shapes. Each time the film passes through a
-//! scene, the scene becomes a separate layer that is visible for that period only.
+//! A scene is a maximal run of animation pieces with the same shapes. Each time the film passes
+//! through a scene, the scene becomes a separate layer that is visible for that period only.
 
 use super::animation::VectorAnimation;
 use super::keyframes::fewest_keys;
@@ -23,12 +23,13 @@ const OPACITY_TOLERANCE: f64 = 0.004;
 /// Maximum deviation of a keyframed width, in pixels (tolerance: not visible).
 const WIDTH_TOLERANCE_PX: f64 = 0.05;
 
-/// A scene during one period in which it is visible.
+/// A scene (consecutive animation pieces with the same shapes) during one period in which it is
+/// visible.
 #[derive(Clone, Debug)]
 pub(super) struct SceneLayer {
-    /// Start of the period in which the scene is visible, in frames.
+    /// Time at which the layer appears, in frames.
     pub from: f64,
-    /// End of the period in which the scene is visible, in frames.
+    /// Time at which the layer disappears, in frames.
     pub to: f64,
     /// Times at which the shapes were sampled, in frames (not necessarily whole), ascending.
     pub places: Vec<f64>,
@@ -45,8 +46,9 @@ pub(super) struct KeyedProperty<T> {
 }
 
 impl SceneLayer {
-    /// Returns a property of a shape as keyframes. Between two keyframes, all its `numbers` are
-    /// linear within `tolerance`. `take` returns the value of the property at a keyframe.
+    /// Returns a property of a shape as keyframes. Linear interpolation between these reproduces
+    /// the `numbers` of every sample within `tolerance`. `take` returns the value of the property
+    /// at a keyframe.
     pub(super) fn keyed<T>(
         &self,
         poses: &[PosedShape],
@@ -128,9 +130,10 @@ impl SceneLayer {
     }
 }
 
-/// Returns the layers of an animation. `timeline` lists times in frames, in ascending order, each
-/// with the t shown at that time. A scene change between two of these times is located by linear
-/// interpolation of t.
+/// Returns the layers of an animation, one for each period in which a scene (consecutive animation
+/// pieces with the same shapes) is visible. `timeline` lists times in frames, in ascending order,
+/// each with the t shown at that time. A scene change between two of these times is located by
+/// linear interpolation of t.
 pub(super) fn layers(animation: &VectorAnimation, timeline: &[(f64, f64)]) -> Vec<SceneLayer> {
     let scenes = scenes(animation);
     let scene_at = |t: f64| {
@@ -167,7 +170,8 @@ pub(super) fn layers(animation: &VectorAnimation, timeline: &[(f64, f64)]) -> Ve
     layers
 }
 
-/// Returns the first t and the range of pieces of each scene.
+/// For each scene (consecutive animation pieces with the same shapes): returns its first t and the
+/// range of its pieces.
 fn scenes(animation: &VectorAnimation) -> Vec<(f64, std::ops::Range<usize>)> {
     let mut scenes: Vec<(f64, std::ops::Range<usize>)> = Vec::new();
     for (k, piece) in animation.pieces.iter().enumerate() {
@@ -196,7 +200,7 @@ fn layer(
             continue;
         }
         places.push(x);
-        // At a scene change two pieces share t; the one of this scene is used.
+        // At a scene change two animation pieces share t; the one of this scene is used.
         let piece = animation.piece_at(t).clamp(pieces.start, pieces.end - 1);
         let posed = animation.pieces[piece].at(t);
         for (poses, posed) in shapes.iter_mut().zip(posed) {

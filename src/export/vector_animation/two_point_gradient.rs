@@ -24,14 +24,14 @@ pub(super) enum TwoPointGradient {
 }
 
 impl TwoPointGradient {
-    /// Converts a gradient with an affine frame.
+    /// Reduces a gradient, which has an affine transform, to points and radii.
     pub(super) fn of(gradient: &Gradient) -> Self {
         let frame = gradient.frame;
         let [x, y] = [frame.matrix2.x_axis, frame.matrix2.y_axis];
         match gradient.geometry {
             GradientGeometry::Linear => {
                 // Lines of equal colour run along the mapped y axis. The gradient vector is the
-                // part of the mapped x axis perpendicular to them.
+                // component of the mapped x axis perpendicular to these lines.
                 let across = DVec2::new(y.y, -y.x);
                 let length = across.length_squared();
                 let vector = if length > 0.0 {

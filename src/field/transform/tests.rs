@@ -26,8 +26,8 @@ fn distance(metric: Metric, dx: f64, dy: f64) -> f64 {
     }
 }
 
-/// Oracle: signed distance of each cell, found by searching all cells of the mask, and of a ring of
-/// outside cells around it, for the nearest cell of the other side.
+/// Oracle: signed distance of each cell, found by a search for the nearest cell on the other side
+/// of the boundary. Searches all cells of the mask and a border of outside cells around it.
 fn brute_force(mask: &Mask, metric: Metric) -> Vec<f64> {
     let (width, height) = (i64::from(mask.width()), i64::from(mask.height()));
     let inside = |x: i64, y: i64| {
@@ -38,7 +38,7 @@ fn brute_force(mask: &Mask, metric: Metric) -> Vec<f64> {
     let nearest = |x: i64, y: i64| {
         let ring = |p: i64, count: i64| p < 0 || p >= count;
         all()
-            // The ring is outside, so it is skipped for outside cells.
+            // The border counts as outside, so outside cells skip it.
             .filter(|&(i, j)| inside(i, j) != inside(x, y))
             .filter(|&(i, j)| inside(x, y) || !(ring(i, width) || ring(j, height)))
             .map(|(i, j)| distance(metric, (i - x).abs() as f64, (j - y).abs() as f64))

@@ -31,8 +31,8 @@ pub(super) fn create_temporary(path: &Path, folder: &Path) -> io::Result<(File, 
         let temporary = folder.join(format!(".{name}{MARKER}{owner}-{number}{EXTENSION}"));
         match File::create_new(&temporary) {
             Ok(file) if try_lock(&file)? => return Ok((file, temporary)),
-            // Before the new file was locked, another process took it for a leftover. The next
-            // pass of the loop tries a name with the next number.
+            // Before the new file was locked, another process mistook it for the file of a killed
+            // process. The next pass of the loop tries a name with the next number.
             Ok(_) => {}
             // The name is used by another thread, or by a process with this id on another machine.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
@@ -50,8 +50,8 @@ fn try_lock(file: &File) -> io::Result<bool> {
     match file.try_lock() {
         Ok(()) => Ok(file.metadata()?.nlink() > 0),
         Err(TryLockError::WouldBlock) => Ok(false),
-        // If the file system does not support locks, no process removes leftovers, so the file is
-        // safe without a lock.
+        // If the file system does not support locks, no process removes the temporary files of
+        // others, so the file is safe without a lock.
         Err(TryLockError::Error(_)) => Ok(true),
     }
 }

@@ -11,7 +11,7 @@ pub(crate) fn write_error_message(error: &io::Error) -> String {
     }
 }
 
-/// Returns only why a file could not be written, for files whose place the user cannot choose.
+/// Returns only why a file could not be written, for files whose location the user cannot choose.
 #[cfg(feature = "app")]
 pub(crate) fn write_error_reason(error: &io::Error) -> String {
     reason_and_remedy(error.kind())

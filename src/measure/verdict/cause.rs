@@ -202,8 +202,8 @@ pub(super) fn differing_neighbours(
     (turn > FRAC_PI_3).then_some(FindingCause::UnlikeNeighbours { turn })
 }
 
-/// Returns whether the two crossing edges lie on the same ring, less than a tenth of its points
-/// apart.
+/// Returns whether the two crossing edges lie on the same ring, with less than a tenth of the
+/// ring's points between them.
 pub(super) fn are_near_each_other(search: &CauseSearch<'_>, crossing: &EdgeCrossing) -> bool {
     let [a, b] = crossing.edges;
     let n = search.solid.loops.get(a.ring).map_or(0, Vec::len);

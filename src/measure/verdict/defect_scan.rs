@@ -127,7 +127,7 @@ pub(super) fn scan_fields(
     })
 }
 
-/// Returns the largest value of a count over all moments; 0 without moments.
+/// Returns the largest value of a count over all sampled t; 0 if there are none.
 pub(super) fn max_count(moments: &[MomentCounts], count: DefectCounts) -> usize {
     moments.iter().map(count).max().unwrap_or(0)
 }
@@ -148,7 +148,7 @@ pub(super) fn worst_moment(
     Some((at_max[at_max.len() / 2], span))
 }
 
-/// Returns the t of all moments that satisfy a condition.
+/// Returns the sampled t at which the counts satisfy a condition.
 pub(super) fn times_where(
     moments: &[MomentCounts],
     condition: impl Fn(&MomentCounts) -> bool,

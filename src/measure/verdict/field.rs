@@ -14,7 +14,7 @@ use crate::work::progress::{Cancelled, Progress};
 /// overlap is named as the cause (heuristic).
 const LITTLE_OVERLAP: f64 = 0.5;
 
-/// Creates a defect from the largest count at any t and the larger of the counts at the two ends.
+/// Creates a defect from two counts: the largest at any t, and the larger of those at t = 0 and 1.
 type FieldFinding = fn(usize, usize) -> FindingKind;
 
 /// Finds when the contour of a blend of distance fields disappears or has extra pieces or holes.

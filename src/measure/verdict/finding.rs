@@ -78,7 +78,7 @@ pub enum FindingKind {
 pub enum FindingCause {
     /// The homotopy moves points along straight lines, which flattens rotating faces.
     StraightPaths {
-        /// Homotopy by which the map of each face is interpolated.
+        /// Homotopy that interpolates the linear map of each face between source and target.
         homotopy: Homotopy,
         /// Rotation of the worst face from source to target.
         turn: f64,
@@ -183,7 +183,7 @@ pub enum Remedy {
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum SettingChange {
-    /// Sets the homotopy by which the map of each face is interpolated.
+    /// Sets the homotopy that interpolates the linear map of each face between source and target.
     Homotopy(Homotopy),
     /// Turns on the symmetric energy, which treats source and target alike.
     Symmetric,

@@ -8,8 +8,8 @@ use crate::transition::{Frame, Transition};
 use crate::warp::{MissedFeatures, WarpKind};
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// Folds that cover less than this fraction of the frame are ignored. In a window of 1000 by 1000
-/// pixels, this is a square 22 pixels wide (heuristic).
+/// Folds that cover less than this fraction of the frame are ignored. If the frame is drawn with
+/// 1000 by 1000 pixels, this is a square 22 pixels wide (heuristic).
 const MIN_FOLD_FRACTION: f64 = 5e-4;
 
 /// Worst finding of one kind so far, with its size. Its `span` covers all findings of that kind so
@@ -29,8 +29,8 @@ fn keep_worst(worst: &mut WorstFold, size: f64, mut finding: Finding) {
     *worst = Some((size, finding));
 }
 
-/// Finds folds of a warp of the plane and features (pins and lines) that it misses. Returns nothing
-/// for other warps.
+/// Finds folds of a warp of the plane and features (pins and lines) that it misses. Returns an
+/// empty list for other warps.
 pub(super) fn plane_findings(
     transition: &Transition,
     steps: usize,
@@ -94,8 +94,8 @@ fn missed_finding(missed: &MissedFeatures, t: f64, diameter: f64) -> Finding {
 }
 
 /// Returns whether a point of the frame is painted at `t`, where `samples` are the points of source
-/// and target that the warp brings there. A distance field paints only its inside, a picture
-/// everything.
+/// and target that the warp brings to that point. A distance field paints only its inside, a
+/// picture everything.
 fn is_visible(content: &Content, t: f64, samples: [DVec2; 2]) -> bool {
     let Content::Field(fields) = content else {
         return true;

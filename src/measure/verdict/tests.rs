@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// Number of t at which a film is checked.
 const STEPS: usize = 65;
 
-/// Distance between two sampled t.
+/// Difference between two consecutive sampled t.
 const STEP: f64 = 1.0 / 64.0;
 
 fn verdict(transition: &Transition) -> Verdict {
@@ -39,7 +39,7 @@ fn options_with(homotopy: Homotopy) -> ArapOptions {
 }
 
 /// A sheet that rotates by half a turn and becomes three times as high. With the linear homotopy,
-/// the map M(t) of each face has det M(t) = (1−2t)(1−4t).
+/// the linear map M(t) of each face has det M(t) = (1−2t)(1−4t).
 fn half_turn(homotopy: Homotopy) -> Transition {
     let (faces, source) = sheet(4, 2);
     let map = DMat2::from_angle(PI) * DMat2::from_diagonal(DVec2::new(1.0, 3.0));

@@ -38,14 +38,14 @@ pub(super) type ConstrainedDelaunay = ConstrainedDelaunayTriangulation<Point2<f6
 /// Stands for "no loop corner" at a vertex of a face, and for "no vertex".
 const NONE: u32 = u32::MAX;
 
-/// A corner of a loop: indices, among the distinct points of all loops, of the points before, at
-/// and after the corner.
+/// Corner of a loop as three points: the one before the corner, the corner itself and the one after
+/// it. Each is an index into the distinct points of all loops.
 type LoopCorner = [u32; 3];
 
 /// A connected piece as a constrained Delaunay triangulation of its distinct points.
 pub(super) struct TriangulationDomain {
     pub(super) delaunay: ConstrainedDelaunay,
-    /// Corners of all loops, one loop after another.
+    /// Corners of all loops, one loop after another, with coinciding corners merged to one point.
     merged: Vec<LoopCorner>,
     /// Number of distinct points of the loops; points added by refinement follow them in
     /// `delaunay`.
@@ -63,8 +63,8 @@ impl TriangulationDomain {
     pub(super) fn of<W: AsRef<[DVec2]>>(loops: &[W]) -> Result<Self, TriangulationError> {
         let (points, merged) = merged_points(loops)?;
         let mut directed_edges = HashSet::new();
-        // Each directed edge may occur only once, because the piece would have no area between two
-        // equal edges.
+        // Each directed edge may occur only once, because the piece has no area between two edges
+        // with the same ends and direction.
         let is_new = |&[_, a, b]: &LoopCorner| a != b && directed_edges.insert([a, b]);
         if !merged.iter().all(is_new) {
             return Err(TriangulationError::NotSimple);
@@ -127,9 +127,9 @@ impl TriangulationDomain {
         if winding[1..].iter().any(|w| !(0..=1).contains(w)) {
             return Err(TriangulationError::NotOnePiece);
         }
-        // A wedge is a sector of the piece at a point, between two loop edges. `corners` fails
-        // unless every loop corner bounds exactly one wedge. If it succeeds, every corner of a face
-        // of the piece has a loop corner, because every wedge begins at an outgoing loop edge.
+        // `corners` fails unless the two loop edges at every loop corner bound one sector of the
+        // piece, and each sector belongs to one loop corner. If it succeeds, every corner of every
+        // face in the piece has its loop corner, because each sector begins at a loop edge.
         self.corners(&winding)
             .ok_or(TriangulationError::NotSimple)?;
         // The leftmost point belongs to the outer boundary, so it must be a corner of the first
@@ -151,8 +151,8 @@ impl TriangulationDomain {
         const UNKNOWN: i32 = i32::MAX;
         let mut winding = vec![UNKNOWN; self.delaunay.num_all_faces()];
         winding[self.delaunay.outer_face().index()] = 0;
-        // Edges whose left face has a known winding number. At first these are the hull's edges,
-        // with the outer face on their left.
+        // Edges for which the winding number of the face on the left is known. At first these are
+        // the edges of the convex hull, with the outer face on their left.
         let mut pending: Vec<_> = self.delaunay.convex_hull().collect();
         while let Some(edge) = pending.pop() {
             let across = edge.rev().face();
@@ -186,8 +186,8 @@ impl TriangulationDomain {
 
     /// Returns for each face the indices of the loop corners at its three vertices. The index is
     /// [`NONE`] at a vertex that refinement added, and for all faces outside the piece. Returns
-    /// `None` if, at some loop corner, the two edges of the loop do not bound exactly one wedge of
-    /// the piece.
+    /// `None` unless the two loop edges at every loop corner bound one sector of the piece, and
+    /// each sector belongs to one loop corner.
     fn corners(&self, winding: &[i32]) -> Option<Vec<[u32; 3]>> {
         let mut corners = vec![[NONE; 3]; winding.len()];
         for (corner, points) in (0..).zip(&self.merged) {
@@ -215,8 +215,8 @@ impl TriangulationDomain {
         Some(corners)
     }
 
-    /// Returns the faces of the piece. Vertex indices count the corners of all loops, then the
-    /// points added by refinement.
+    /// Returns the faces of the piece. The vertices are numbered in this order: the corners of all
+    /// loops, then the points added by refinement.
     pub(super) fn faces(&self) -> Vec<[u32; 3]> {
         let winding = self.winding();
         // Always `Some`: the corners were checked, and refinement splits no loop edge.
@@ -241,8 +241,8 @@ impl TriangulationDomain {
     }
 }
 
-/// Returns the distinct points of all loops, and for each loop corner the indices of the points
-/// before, at and after it.
+/// Returns the distinct points of all loops. Also returns, for each loop corner, the indices of
+/// three points: the one before the corner, the corner itself and the one after it.
 fn merged_points<W: AsRef<[DVec2]>>(
     loops: &[W],
 ) -> Result<(Vec<Point2<f64>>, Vec<LoopCorner>), TriangulationError> {

@@ -32,11 +32,12 @@ const MIN_ANGLE: f64 = 0.4;
 /// (tolerance: below about 1e-15, rounding dominates the circumcentre).
 const MIN_AREA_FRACTION: f64 = 1e-14;
 
-/// Priority of a bad face: the bits of its squared circumradius, which have the same order as the
-/// non-negative number itself, then its vertices, which break ties deterministically.
+/// Priority of a bad face: its squared circumradius, then its vertices, so that the order is always
+/// unique. The squared circumradius is stored as its bits, which sort like the non-negative number
+/// itself.
 type BadFaceRank = (u64, Reverse<[FixedVertexHandle; 3]>);
 
-/// Limits beyond which a face counts as bad.
+/// Limits beyond which a face is bad: too large, or with too small an angle.
 struct FaceLimits {
     /// A face is bad if the square of its shortest edge, divided by the square of its circumradius,
     /// is below this limit.
@@ -48,8 +49,8 @@ struct FaceLimits {
 }
 
 impl TriangulationDomain {
-    /// Inserts points until no bad face can be improved, or until the maximum number of points is
-    /// reached.
+    /// Inserts points until no bad face (too large, or with too small an angle) can be improved, or
+    /// until the maximum number of points is reached.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is cancelled.
@@ -71,8 +72,8 @@ impl TriangulationDomain {
             && let Some(((_, Reverse(vertices)), centre)) = bad.pop_last()
         {
             check_cancelled(progress)?;
-            // A face that cannot be improved leaves the queue for good: only faces at new vertices
-            // enter the queue.
+            // A face that cannot be improved leaves the queue for good, because only faces at new
+            // vertices enter the queue.
             let Some(vertex) = insert(&mut self.delaunay, vertices, centre) else {
                 continue;
             };
@@ -101,7 +102,7 @@ impl TriangulationDomain {
 }
 
 impl FaceLimits {
-    /// Returns the priority and the circumcentre of a face if it is bad.
+    /// Returns the priority and the circumcentre of a face; `None` if the face is not bad.
     fn judge(&self, face: SpadeFace<'_>) -> Option<(BadFaceRank, DVec2)> {
         let area = face.area();
         if area <= self.least_area {
@@ -121,7 +122,7 @@ impl FaceLimits {
 }
 
 /// Inserts a vertex at the circumcentre of the face `[a, b, c]`, if the face still exists and the
-/// circumcentre lies inside the piece and not too close to its boundary.
+/// circumcentre lies inside the piece and not too close to the piece's boundary.
 fn insert(
     delaunay: &mut ConstrainedDelaunay,
     [a, b, c]: [FixedVertexHandle; 3],

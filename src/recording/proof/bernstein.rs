@@ -75,9 +75,9 @@ impl BernsteinProducts {
         }
     }
 
-    /// Returns the polynomial whose coefficient i + j is the weighted sum of `of(i, j)` over all i
-    /// and j with this sum. If `of(i, j)` is uᵢ vⱼ, this is the product of the polynomials with the
-    /// coefficients u and v. The error bound is left at 0.
+    /// Returns the polynomial whose coefficient with index k is the weighted sum of `of(i, j)` over
+    /// all i + j = k. If `of(i, j)` is uᵢ vⱼ, this is the product of the polynomials with the
+    /// coefficients u and v. The error bound of the result is left at 0.
     pub(super) fn sum(&self, of: impl Fn(usize, usize) -> f64) -> BernsteinPolynomial {
         let mut sum = BernsteinPolynomial::zero(2 * self.degree);
         for i in 0..=self.degree {

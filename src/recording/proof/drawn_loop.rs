@@ -1,4 +1,4 @@
-//! Boundary loop that is examined for meetings with others.
+//! Boundary loop that is examined for meetings with other boundary loops.
 
 /// Closed boundary loop of a shape that is drawn.
 #[derive(Clone, Debug, PartialEq)]

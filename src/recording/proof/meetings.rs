@@ -90,8 +90,8 @@ pub(super) fn first_meeting(
             false => std::mem::take(&mut remaining),
         };
         let ends = [at_ends[0] && from == 0.0, at_ends[1] && to == 1.0];
-        // Crossings at the beginning of a section are tested directly, except at t = 0, where the
-        // two sides of a cut lie on each other.
+        // Crossings of loops at the beginning of a section are tested directly, except at t = 0,
+        // where the two sides of a cut lie on each other.
         let crossed = (!ends[0]).then(|| search.first_crossing(&piece, loops, from));
         let next = match crossed.flatten() {
             Some(first) => IntervalMeetings {
@@ -156,8 +156,8 @@ impl<'a> MeetingSearch<'a> {
     }
 
     /// Returns a crossing of two loops of the same layer at the beginning of `curves`; `None` if no
-    /// loops cross. The beginning of `curves` is at the fraction `s` of the interval; `s` becomes
-    /// the time of the result.
+    /// loops cross. `s` is the fraction of the interval at which `curves` begin; the result
+    /// contains it as the time of the crossing.
     fn first_crossing(
         &self,
         curves: &[VertexCurve],
@@ -185,7 +185,7 @@ impl<'a> MeetingSearch<'a> {
     }
 
     /// Returns the earliest meeting in a part of the interval, from the fraction `from` to the
-    /// fraction `to`. `curves` are the curves of the vertices during this part. The part may be
+    /// fraction `to`. `curves` are the curves of the vertices during this part. This part may be
     /// halved up to `halvings` times.
     ///
     /// # Errors
@@ -225,8 +225,8 @@ impl<'a> MeetingSearch<'a> {
             }
             let s = self.first_contact(triple, at_ends, [from, to], MAX_HALVINGS, &earliest)?;
             let edge = [a as u32, b as u32];
-            // The position of the vertex at the beginning of the part is accurate enough for
-            // display.
+            // The position of the vertex at the beginning of this part of the interval is accurate
+            // enough for display.
             Some((s, v as u32, edge, curves[v].control_points[0]))
         };
         let found = apart.par_iter().filter_map(meets);
@@ -265,7 +265,8 @@ impl<'a> MeetingSearch<'a> {
                     pairs.extend(both.filter(|(v, ends)| !ends.contains(v)));
                 }
             }
-            // Duplicates are removed below. A pair occurs up to about four times.
+            // Duplicates, which are removed below, are still counted here: a pair occurs up to
+            // about four times.
             if pairs.len() > max_pairs.saturating_mul(4) {
                 return None;
             }

@@ -18,8 +18,8 @@ pub(super) struct VertexCurve {
 pub(super) struct IntervalCurves<'a> {
     interval: &'a RecordingInterval,
     basis: Vec<Vec<f64>>,
-    /// For each basis function, its largest absolute Bernstein coefficient; it scales the rounding
-    /// error.
+    /// For each basis function, the largest absolute value of its Bernstein coefficients, for the
+    /// bound on rounding errors.
     largest: Vec<f64>,
 }
 

@@ -113,7 +113,8 @@ fn a_space_of_two_pictures_equals_their_transition() {
         for t in [0.0, 0.3, 0.5, 0.8, 1.0] {
             let expected = pair.frame(t).picture(&raster()).expect("pictures");
             let blend = render(&space, &[1.0 - t, t]);
-            // The warp grids differ, so a few pixels at the edge of the ball differ.
+            // The grids on which the two warps are evaluated differ, so a few pixels at the edge of
+            // the ball differ.
             let pairs = blend.pixels().zip(expected.pixels());
             let different = pairs.filter(|(a, b)| (0..3).any(|k| a.0[k].abs_diff(b.0[k]) > 2));
             assert!(different.count() < 12, "{kind:?} at {t}");

@@ -11,7 +11,8 @@ use crate::numerics::{Cholesky, CholeskyWorkspace, FactorError};
 use crate::warp::Arap;
 use std::collections::BTreeMap;
 
-/// The factor μ of the masses. Dents are about √(1/μ) times as wide as the design (heuristic).
+/// The factor μ of the masses in the matrix (K + μM) M⁻¹ (K + μM). Dents are about √(1/μ) times as
+/// wide as the design (heuristic).
 const LOCAL: f64 = 30.0;
 
 /// Compliance of a mesh, computed vertex by vertex on request.

@@ -8,7 +8,8 @@ use crate::warp::Arap;
 use crate::work::progress::Progress;
 use std::sync::Arc;
 
-/// First time at which a face folds or outlines meet, or at which neither can be excluded.
+/// First time at which a face folds or outlines meet, or at which the proof cannot exclude that one
+/// of these happens.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FirstDefect {
     pub t: f64,

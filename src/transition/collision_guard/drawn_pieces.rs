@@ -1,10 +1,12 @@
-//! The boundary loops that are drawn as the mesh has them, with their layers and visible intervals.
+//! The boundary loops that are drawn where the mesh has them, with their layers and visible
+//! intervals of t.
 
 use crate::recording::proof::DrawnLoop;
 use crate::transition::transients::layers::PieceLayers;
 use crate::warp::Arap;
 
-/// The pieces of a match: their layers, and which of them swell.
+/// The pieces of a match: their layers, and which of them swell (grow in thickness within their
+/// outline).
 #[derive(Clone, Debug)]
 pub(super) struct DrawnPieces {
     pieces: Vec<DrawnPiece>,
@@ -17,8 +19,8 @@ struct DrawnPiece {
 }
 
 impl DrawnPieces {
-    /// Creates the list from the number of pieces. `swelling` contains the indices of the pieces
-    /// that swell, whose drawn outlines differ from the mesh boundary.
+    /// Creates the list of the pieces 0 to `pieces` − 1. `swelling` contains the indices of the
+    /// pieces that swell, whose drawn outlines differ from the mesh boundary.
     pub(super) fn of(pieces: usize, swelling: &[usize], levels: &PieceLayers) -> Self {
         let piece = |k: usize| DrawnPiece {
             level: levels.of_piece(k),

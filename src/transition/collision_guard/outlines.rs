@@ -5,16 +5,17 @@ use crate::recording::proof::DrawnLoop;
 use crate::warp::{Arap, Warp};
 use std::collections::BTreeMap;
 
-/// Clearance between outlines, as a fraction of the mesh diameter (heuristic: one pixel of a
-/// picture 1,000 pixels wide).
+/// Required clearance between outlines, as a fraction of the mesh diameter (heuristic: one pixel of
+/// a picture 1,000 pixels wide).
 const APART: f64 = 1e-3;
 
-/// A vertex closer than this to an edge, as a fraction of the mesh diameter, touches it, as on the
-/// two sides of a cut (tolerance: far above rounding, far below the clearance).
+/// Distance between a vertex and an edge, as a fraction of the mesh diameter, below which the two
+/// count as touching, like the two sides of a cut that has not opened yet (tolerance: far above
+/// rounding, far below the clearance).
 const TOUCHES: f64 = 1e-7;
 
-/// Time after which a pair that touches when it appears reaches the full clearance; likewise before
-/// it disappears (heuristic).
+/// Length of t over which the required clearance of a vertex and an edge that touch when they
+/// appear rises from 0 to the full value; likewise before they disappear (heuristic).
 const OPENS: f64 = 0.05;
 
 /// A vertex and an edge that must not meet: indices in the `points` and `edges` of
@@ -77,7 +78,7 @@ impl GuardedOutlines {
         })
     }
 
-    /// Returns the clearance between outlines, in units of the plane.
+    /// Returns the required clearance between outlines, in units of the plane.
     pub(super) fn apart(&self) -> f64 {
         APART * self.diameter
     }
@@ -119,8 +120,9 @@ impl GuardedOutlines {
             && !edge.ends.contains(&vertex)
     }
 
-    /// Returns the clearance of a pair at `t`. It is the general clearance, but at most a quarter
-    /// of the distance of the pair when it begins or ceases to be drawn.
+    /// Returns the required clearance of a pair at `t`: the general clearance, but at most a
+    /// quarter of the distance between vertex and edge when the pair appears or disappears. If the
+    /// two touch at that time, the clearance grows from 0.
     pub(super) fn gap(&self, pair: GuardedPair, t: f64) -> f64 {
         let [from, to] = self.drawn(pair);
         let apart = self.apart();
@@ -145,9 +147,9 @@ impl GuardedOutlines {
         p - a.lerp(b, nearest_segment_parameter(p, a, b))
     }
 
-    /// Returns all pairs that may come within `reach` of each other while the vertices move in
-    /// straight lines from `ways[0]` to `ways[1]`, and that are drawn at `t`. May contain pairs
-    /// that stay farther apart.
+    /// Returns all pairs that are drawn at `t` and may come within `reach` of each other while the
+    /// vertices move in straight lines from `ways[0]` to `ways[1]`. Also returns some pairs that
+    /// stay farther apart.
     pub(super) fn near(&self, ways: [&[DVec2]; 2], reach: f64, t: f64) -> Vec<GuardedPair> {
         let mut spans: Vec<SweepBox> = Vec::with_capacity(2 * self.points.len());
         for (number, &(vertex, _)) in self.points.iter().enumerate() {

@@ -1,10 +1,11 @@
 //! The smallest displacement that satisfies all contact constraints.
 //!
-//! Solves min ½ |D|² subject to C D ≥ b, where |D| is measured in the energy of the mesh. The dual
-//! problem is min ½ λᵀ A λ − bᵀ λ subject to λ ≥ 0, with A = C G Cᵀ and the compliance G of the
-//! mesh. It has one unknown per contact and is solved by projected Gauss–Seidel iteration, which
-//! converges because A is symmetric and positive semidefinite. The result does not depend on the
-//! number of threads.
+//! Solves min ½ |D|² subject to C D ≥ b for the displacements D. The contact constraints are the
+//! rows of C D ≥ b, and |D| is measured in the energy of the mesh. The dual problem is min ½ λᵀ A λ
+//! − bᵀ λ subject to λ ≥ 0, with A = C G Cᵀ and the compliance G of the mesh. The dual problem has
+//! one unknown λ per contact. It is solved by projected Gauss–Seidel iteration, which converges
+//! because A is symmetric and positive semidefinite. The result does not depend on the number of
+//! threads.
 
 use super::compliance::MeshCompliance;
 use crate::geometry::DVec2;
@@ -74,7 +75,8 @@ pub(super) fn smallest(
     Some(moved)
 }
 
-/// Returns the matrix A = C G Cᵀ, row by row.
+/// Returns the matrix C G Cᵀ, row by row, where the rows of C are the constraints `rows` and G is
+/// the compliance of the mesh.
 fn products(rows: &[&ContactConstraint], yielding: &MeshCompliance) -> Vec<f64> {
     let n = rows.len();
     let mut a = vec![0.0; n * n];
@@ -97,13 +99,13 @@ fn products(rows: &[&ContactConstraint], yielding: &MeshCompliance) -> Vec<f64> 
 fn multipliers(rows: &[&ContactConstraint], a: &[f64], tolerance: f64) -> Vec<f64> {
     let n = rows.len();
     let mut lambda = vec![0.0; n];
-    // The current value of C D.
+    // Left-hand sides of the constraints for the current multipliers.
     let mut reached = vec![0.0; n];
     for _ in 0..SWEEPS {
         let mut off: f64 = 0.0;
         for i in 0..n {
             let own = a[i * n + i];
-            // The mesh does not yield in this direction.
+            // The mesh does not yield to this contact, so no multiplier can satisfy it.
             if own <= 0.0 {
                 continue;
             }

@@ -1,9 +1,10 @@
 //! Steps through a motion from t = 0 and displaces vertices that would collide.
 //!
-//! Each step starts from positions without collisions. A vertex and an edge that come close to each
-//! other there have a separating line between them. The line rotates with the edge, and in the next
-//! step both must stay on their sides of it. Vertices therefore cannot slip through edges between
-//! two steps. Vertices that stay away from all edges are not displaced.
+//! Each step starts from positions without collisions. If a vertex and an edge are close to each
+//! other in these positions, a line is placed between them. The line rotates with the edge, and
+//! after the step vertex and edge must still lie on different sides of the line. Vertices therefore
+//! cannot slip through edges between two steps. Vertices that stay away from all edges are not
+//! displaced.
 
 use super::compliance::MeshCompliance;
 use super::outlines::{GuardedOutlines, GuardedPair};
@@ -22,7 +23,8 @@ const CORRECTIONS: u32 = 6;
 /// invisible).
 const EXACT: f64 = 0.01;
 
-/// Minimum area of a face, as a fraction of its smaller area in the two designs (heuristic).
+/// Minimum area of a face, as a fraction of the smaller of its areas in the two designs
+/// (heuristic).
 const FACE: f64 = 0.125;
 
 /// Largest displacement, as a fraction of the mesh diameter; beyond it the attempt is abandoned
@@ -75,8 +77,8 @@ pub(super) fn through(
     Ok(Some(moved.chain([(*last, still)]).collect()))
 }
 
-/// State after one step: original positions, displacements, and the displaced positions, in which
-/// all close pairs are apart.
+/// State after one step: `plain` are the original positions, `moved` the displacements, and
+/// `places` the displaced positions, in which all close pairs are apart.
 struct GuardMoment {
     t: f64,
     plain: Vec<DVec2>,
@@ -148,8 +150,8 @@ impl GuardStepper<'_> {
         })
     }
 
-    /// Returns the direction from the edge to the vertex before the step, rotated with the edge to
-    /// its orientation after the step.
+    /// Returns the normal of the separating line of a pair: the direction from the edge to the
+    /// vertex before the step, rotated as the edge rotates during the step.
     fn line(&self, pair: GuardedPair, before: &GuardMoment, plain: &[DVec2]) -> DVec2 {
         let towards = self.outlines.towards(pair, &before.places);
         let along = |places: &[DVec2]| {
@@ -167,8 +169,8 @@ impl GuardStepper<'_> {
         turn.rotate(towards.normalize_or_zero())
     }
 
-    /// Sets the separating direction of each pair that is apart to its current one, so that the
-    /// vertex can slide along the edge.
+    /// Updates the normal of the separating line of each pair that is apart to the current
+    /// direction from the edge to the vertex, so that the vertex can slide along the edge.
     fn turned(&self, lines: &mut BTreeMap<GuardedPair, DVec2>, places: &[DVec2]) {
         for (&pair, line) in lines.iter_mut() {
             let towards = self.outlines.towards(pair, places);
@@ -179,8 +181,8 @@ impl GuardStepper<'_> {
         }
     }
 
-    /// Returns how far the vertex is beyond both ends of the edge in the direction `line`; negative
-    /// if it is not beyond one of them.
+    /// Returns the smaller of the distances of the vertex from the two ends of the edge, measured
+    /// along `line`; negative if the vertex is not beyond both ends.
     fn between(&self, pair: GuardedPair, line: DVec2, places: &[DVec2]) -> f64 {
         let p = places[self.outlines.vertex(pair) as usize];
         let [a, b] = self.outlines.edge(pair).map(|v| places[v as usize]);
@@ -213,7 +215,7 @@ impl GuardStepper<'_> {
         rows
     }
 
-    /// Adds a constraint for each face that is close to folding.
+    /// Adds a constraint on the area of each face that is close to folding.
     fn faces(
         &self,
         plain: &[DVec2],
@@ -261,8 +263,9 @@ impl GuardStepper<'_> {
     }
 }
 
-/// Returns the value that is required of a clearance or an area. If the original motion has a
-/// positive value below `wanted`, that value suffices, but at least a quarter of `wanted`.
+/// Returns the required value of a clearance or an area. If the original motion has a positive
+/// value `by_itself` below `wanted`, only that value is required, but at least a quarter of
+/// `wanted`.
 fn asked(wanted: f64, by_itself: f64) -> f64 {
     if by_itself > 0.0 {
         wanted.min(by_itself.max(0.25 * wanted))

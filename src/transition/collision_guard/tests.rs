@@ -143,7 +143,7 @@ fn what_is_born_on_the_way_of_another_waits() {
     let drawn = DrawnPieces::of(3, &[], &PieceLayers::default());
     let unproved = FailedProof::of_drawn(&plain, drawn.clone(), &Silent).expect("nobody cancels");
     let unproved = unproved.expect("it is run over");
-    // The first collision from t = 0 is also the last one, seen from t = 1.
+    // The first collision seen from t = 0, and the first one seen from t = 1.
     let met = unproved.births();
     assert!(
         met.len() == 2 && met[0] >= born.from && met[0] < met[1],

@@ -1,6 +1,6 @@
 //! Shortens the time window of a part that exists in only one design and collides.
 //!
-//! The windows were chosen from collisions at sample times
+//! The time windows were chosen such that nothing collides at the sample times
 //! ([`crate::transition::transients::placement`]). The proof also finds collisions between those
 //! times.
 
@@ -8,24 +8,23 @@ use super::defects::FirstDefect;
 use crate::geometry::Side;
 use crate::warp::{Arap, TimeWindow};
 
-/// Time between a collision and the new start or end of the window (heuristic).
+/// Length of t between a collision and the new start or end of the time window (heuristic).
 const SHIFT: f64 = 1.0 / 64.0;
 
-/// Minimum length of a time window (heuristic).
+/// Minimum length of a time window, in units of t (heuristic).
 const SHORTEST: f64 = 1.0 / 16.0;
 
-/// Result of shortening the window of a colliding part.
+/// Result of shortening the time window of a colliding part.
 pub(super) enum WindowShift {
-    /// The windows of all parts. The window of one part now starts after the collision or ends
-    /// before it.
+    /// The time windows of all parts. One of them now starts after the collision or ends before it.
     To(Vec<Option<TimeWindow>>),
-    /// The window would be shorter than the minimum.
+    /// The time window would be shorter than the minimum.
     TooShort,
     /// The defect involves no part that exists in only one design.
     NotTransient,
 }
 
-/// Shortens the window of a part that collides in the given defect.
+/// Shortens the time window of a part that collides in the given defect.
 pub(super) fn shifted(film: &Arap, trouble: &FirstDefect) -> WindowShift {
     let Some(meeting) = trouble.meeting else {
         return WindowShift::NotTransient;
@@ -47,7 +46,7 @@ pub(super) fn shifted(film: &Arap, trouble: &FirstDefect) -> WindowShift {
         Some((piece, next))
     };
     let long = |life: &TimeWindow| life.to - life.from;
-    // If both parts can be shortened, the one whose remaining window is longer is chosen.
+    // If the time windows of both parts can be shortened, the one that stays longer is shortened.
     let longer =
         |a: &(usize, TimeWindow), b: &(usize, TimeWindow)| long(&a.1).total_cmp(&long(&b.1));
     match both.iter().filter_map(shifted).max_by(longer) {

@@ -2,8 +2,8 @@
 //!
 //! Boundary features cannot predict how the interior deforms, so each candidate match is rated by
 //! its motion. Pieces move independently and are therefore chosen independently. The search starts
-//! with the draft of each piece, or with the requested match if there is no draft. It then makes
-//! the attempts of [`ATTEMPTS`] in order:
+//! with the draft match of each piece, or with the requested match if there is no draft. It then
+//! makes the attempts of [`ATTEMPTS`] in order:
 //!
 //! | attempt | pieces that it includes | match options | holes |
 //! |---|---|---|---|
@@ -14,16 +14,16 @@
 //! | [`UNPAIR_HOLES`] | that fold and have matched holes | requested | all unmatched |
 //! | [`UPRIGHT`] to [`WITHOUT_THICKNESS`] again | of the previous attempt | as above | as above |
 //!
-//! "As before" means as in the piece's best candidate so far. The last four attempts improve a
-//! second result, which starts from the result of [`CUT_HOLES`]. An attempt that would override a
-//! setting of the user includes no pieces. Designs with many rings keep the requested match. A
-//! draft makes only the attempt [`DRAFT`].
+//! "As before" means as in the piece's best match so far. The last four attempts improve a second
+//! result, which starts from the result of [`CUT_HOLES`]. An attempt that would override a setting
+//! of the user includes no pieces. Designs with many rings keep the requested match. In draft
+//! quality, only the attempt [`DRAFT`] is made.
 //!
-//! Candidates are compared by the number of folded faces over all samples, then by the crossings of
-//! their outlines, then by misfit: the distortion, multiplied by factors for excess turning,
-//! rotation and excess area. Of equal candidates, the earlier one stays. Finally the correspondence
-//! of both results slides along the outlines (see [`sliding`](super::sliding)), and the better
-//! result is chosen.
+//! Candidates are compared by the number of folded faces, summed over sampled t, then by the
+//! crossings of their outlines, then by misfit: the distortion, multiplied by factors for the
+//! rotation of the piece and for additional bends and area during the motion. If two candidates are
+//! equal, the earlier one stays. Finally the correspondence of both results slides along the
+//! outlines (see [`sliding`](super::sliding)), and the better result is chosen.
 
 use super::candidate::MatchCandidate;
 use super::group::{GroupSearch, MatchVariant, PieceResult, piece_of_result};
@@ -36,32 +36,32 @@ use crate::work::progress::{Progress, ProgressSpan};
 /// poses of one shape cost up to 0.3, dissimilar shapes 0.4 and more).
 const SIMILAR_COST: f64 = 0.34;
 
-/// Weights of stretching that are tried for dissimilar shapes, in addition to the requested one
-/// (heuristic).
+/// Weights of the cost of stretching that are tried for dissimilar shapes, in addition to the
+/// requested weight (heuristic).
 const OTHER_STRETCH_COSTS: [f64; 2] = [0.6, 1.2];
 
-/// Weight of inner distances in one of the variants tried for dissimilar shapes. With this weight,
-/// limbs and strokes dominate the match (heuristic).
+/// Weight of inner distances (lengths of shortest paths inside the shape) in one of the variants
+/// tried for dissimilar shapes. With this weight, limbs and strokes dominate the match (heuristic).
 const INNER_DISTANCE_COST: f64 = 8.0;
 
-/// Weights of stretching that are tried, with thickness ignored, if the candidates so far fold or
-/// are distorted. If thickness counts, a match may map an arm to a thick body (heuristic).
+/// Weights of the cost of stretching that are tried, with thickness ignored, if the matches so far
+/// fold or are distorted. If thickness counts, a match may map an arm to a thick body (heuristic).
 const COSTS_WITHOUT_THICKNESS: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 
-/// Distortion above which matches without thickness are tried even if the best candidate does not
-/// fold (heuristic).
+/// Distortion of the best match above which matches without thickness are tried even if the best
+/// match does not fold (heuristic).
 const HIGH_DISTORTION: f64 = 3.0;
 
-/// Maximum work of one attempt for a group of parts. The work of a piece is the number of its
-/// candidates times the square of the number of its boundary vertices (resource limit: a candidate
+/// Maximum work of one attempt for a group of parts. The work of a piece is the number of matches
+/// tried for it times the square of the number of its boundary vertices (resource limit: a match
 /// with 700 vertices takes about 0.3 s).
 const MAX_WORK: usize = 2_500_000;
 
-/// Maximum work of the attempt of a draft, measured as for [`MAX_WORK`] (resource limit: the user
-/// is waiting for the draft).
+/// Maximum work of the only attempt in draft quality, measured as for [`MAX_WORK`] (resource limit:
+/// the user is waiting for the draft).
 const MAX_DRAFT_WORK: usize = 100_000;
 
-/// Treatment in which unmatched holes are cut open or closed, whichever matches better.
+/// Treatment of unmatched holes in which they are cut open or closed, whichever matches better.
 const CUT_OR_CLOSE: HolePolicy = HolePolicy::Paired(HoleRule::Auto);
 
 /// Progress reported once the requested matches are done, in [0, 1] (heuristic).
@@ -73,14 +73,14 @@ const ATTEMPTS_PROGRESS: f64 = 0.7;
 
 /// An attempt to find better matches for some pieces of a group.
 struct Attempt {
-    /// Selects which of the two results of the search the attempt improves.
+    /// Result of the search that the attempt improves.
     branch: SearchBranch,
     /// The attempt includes the pieces that meet all of these conditions.
     conditions: &'static [PieceCondition],
     /// Match options that are tried.
     options: TriedOptions,
-    /// Treatment of unmatched holes. If `None`, each piece keeps the treatment of its best
-    /// candidate so far.
+    /// Treatment of unmatched holes. If `None`, each piece keeps the treatment in its best match so
+    /// far.
     holes: Option<HolePolicy>,
     /// Limit of the work, measured as for [`MAX_WORK`]. The smallest pieces are tried first; pieces
     /// beyond the limit are left out.
@@ -95,9 +95,9 @@ struct Attempt {
 enum SearchBranch {
     /// Both results of the search.
     Both,
-    /// The result in which holes may be matched.
+    /// The result in which holes of the source may be matched with holes of the target.
     PairedHoles,
-    /// The result in which all holes of a piece are to be left unmatched.
+    /// The result in which all holes of some pieces are left unmatched.
     UnpairedHoles,
 }
 
@@ -107,7 +107,7 @@ enum SearchBranch {
 enum PieceCondition {
     /// The user has not chosen a treatment of unmatched holes.
     FreeHoles,
-    /// The user has not fixed the drawn orientation.
+    /// The user has not requested the drawn orientation.
     FreeOrientation,
     /// The user has not set the weight of stretching.
     FreeCosts,
@@ -117,13 +117,13 @@ enum PieceCondition {
     UnmatchedHoles,
     /// The piece has matched holes, and folds or cannot be triangulated.
     FoldsWithHoles,
-    /// In the best candidate of the piece, all holes are unmatched.
+    /// In the best match of the piece so far, all holes are unmatched.
     UnpairedHoles,
     /// The piece turns far, and its target is not just a rotated copy.
     TurnsFar,
     /// The matched shapes are dissimilar, or the piece cannot be triangulated.
     Dissimilar,
-    /// The best candidate folds or has a high distortion, or the piece cannot be triangulated.
+    /// The best match so far folds or has a high distortion, or the piece cannot be triangulated.
     /// Crossing outlines alone are no reason to include a piece: that would double the work and
     /// hardly ever help.
     HighDistortion,
@@ -134,7 +134,7 @@ enum PieceCondition {
 enum TriedOptions {
     /// The requested options.
     Requested,
-    /// The requested options, but with the drawn orientation fixed.
+    /// The requested options, except that the drawn orientation is kept.
     Upright,
     /// The weights [`OTHER_STRETCH_COSTS`], and a high weight of inner distances.
     OtherCosts,
@@ -197,7 +197,7 @@ const CUT_HOLES: Attempt = Attempt {
     progress: [REQUESTED_PROGRESS, 0.3],
 };
 
-/// Attempt that keeps the drawn orientation of pieces that turn far.
+/// Attempt for pieces that turn far: keeps their drawn orientation.
 const UPRIGHT: Attempt = Attempt {
     branch: SearchBranch::PairedHoles,
     conditions: &[
@@ -211,8 +211,8 @@ const UPRIGHT: Attempt = Attempt {
     progress: [0.3, 0.34],
 };
 
-/// The only attempt in draft quality: keeps the drawn orientation of pieces that turn far, as
-/// [`UPRIGHT`] does, but with less work.
+/// The only attempt in draft quality. Like [`UPRIGHT`], it keeps the drawn orientation of pieces
+/// that turn far, but it does less work.
 const DRAFT: Attempt = Attempt {
     max_work: MAX_DRAFT_WORK,
     progress: [REQUESTED_DRAFT_PROGRESS, 1.0],
@@ -249,7 +249,7 @@ const UNPAIR_HOLES: Attempt = Attempt {
     progress: [0.5, 0.6],
 };
 
-/// Returns the best candidate of each piece of a group. `drafts` holds the result of
+/// Returns the best match of each piece of a group. `drafts` holds the result of
 /// [`drafts_of_group`], if it has been computed already.
 ///
 /// # Errors
@@ -285,8 +285,8 @@ pub(in crate::transition) fn best_of_group(
     slide_and_choose(paired, unpaired, group.spec, &sliding)
 }
 
-/// Returns the draft of each piece: the requested match or, for pieces that would turn far, a match
-/// that keeps the drawn orientation, if that is better.
+/// Returns the draft match of each piece: the requested match or, for pieces that would turn far, a
+/// match that keeps them upright, if that is better.
 ///
 /// # Errors
 /// If the group cannot be matched, a motion cannot be solved, or the work is cancelled.
@@ -419,8 +419,8 @@ impl TriedOptions {
 }
 
 /// Returns, for each piece, whether it is tried. Of the pieces that `includes` selects, the
-/// smallest ones are tried as long as their total work is at most `max_work`. Each piece counts
-/// with `candidates_per_piece` candidates.
+/// smallest ones are tried as long as their total work is at most `max_work`. For each piece,
+/// `candidates_per_piece` matches would be tried.
 fn affordable(
     results: &[PieceResult],
     includes: &dyn Fn(&PieceResult) -> bool,

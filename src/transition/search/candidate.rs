@@ -15,9 +15,9 @@ use crate::warp::{Arap, ArapOptions, Warp};
 use crate::work::progress::{Cancelled, Progress, ProgressSpan, check_cancelled};
 use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
-/// Number of equal steps of t into which the motion is divided to count folds and crossings
-/// (resource limit: each step costs a frame of every candidate). Folds between two samples are
-/// missed.
+/// Number of equal steps of t into which the motion is divided to count folds and crossings; folds
+/// between two samples are missed (resource limit: at each step, every vertex of every candidate
+/// match is placed).
 const STEPS: u32 = 32;
 
 /// Progress reported once the mesh is built, in [0, 1] (heuristic).
@@ -27,12 +27,12 @@ const MESH_PROGRESS: f64 = 0.9;
 /// faces are left out (heuristic: the corners of every triangulation are distorted).
 const IGNORED_AREA: f64 = 0.05;
 
-/// Exponent of the factor (1 + excess turning of the outlines) in the misfit, which rates the
-/// candidates (heuristic).
+/// Exponent of the factor 1 + [`MotionDefects::turning`] in the misfit by which candidate matches
+/// are compared (heuristic).
 const TURNING_EXPONENT: i32 = 3;
 
-/// Exponent of the factor (1 + number of half turns of the piece) in the misfit, which rates the
-/// candidates (heuristic).
+/// Exponent of the factor 1 + number of half turns of the piece, in the misfit by which candidate
+/// matches are compared (heuristic).
 const ROTATION_EXPONENT: i32 = 2;
 
 /// Largest rotation, in radians, with which a piece counts as staying upright (heuristic).
@@ -57,17 +57,18 @@ struct MotionDefects {
     folds: usize,
     /// Number of crossings of the outlines, summed over all samples.
     crossings: usize,
-    /// Largest amount, over all samples, by which the total turning of the outlines exceeds the
-    /// linear interpolation of its values at t = 0 and t = 1, as a fraction of that interpolation.
+    /// Largest excess, over all samples, of the total turning of the outlines: the sum of their
+    /// absolute exterior angles. The excess is measured above the linear interpolation between
+    /// t = 0 and t = 1, as a fraction of the interpolated value.
     turning: f64,
-    /// Largest amount, over all samples, by which the area exceeds the linear interpolation of its
-    /// values at t = 0 and t = 1, as a fraction of that interpolation.
+    /// Largest excess, over all samples, of the area. The excess is measured above the linear
+    /// interpolation between t = 0 and t = 1, as a fraction of the interpolated value.
     swelling: f64,
     /// Rotation of the piece as a whole, in radians.
     rotation: f64,
 }
 
-/// Reason why a candidate could not be built.
+/// Reason why the motion of a candidate match could not be rated.
 pub(in crate::transition) enum CandidateError {
     /// The piece could not be triangulated.
     Mesh(PieceMeshError),
@@ -103,9 +104,10 @@ impl MatchCandidate {
         let mesh = mesh_of_piece(&matched, &options.triangulation, &meshing)
             .map_err(CandidateError::Mesh)?;
         let defects = if matched.is_matched() {
-            // The piece is rated on its own, with default weights and anchor, because the requested
-            // ones refer to the whole design. The bounded homotopy is too expensive for a rating
-            // and is replaced by the polar one, which starts and ends with the same shapes.
+            // The piece is rated on its own, with the default weights and the default anchor,
+            // because the requested weights and anchor refer to the whole design. The bounded
+            // homotopy is too expensive for a rating and is replaced by the polar one, which starts
+            // and ends with the same shapes.
             let homotopy = match options.arap.homotopy {
                 Homotopy::Bounded => Homotopy::Polar,
                 homotopy => homotopy,
@@ -132,7 +134,7 @@ impl MatchCandidate {
         })
     }
 
-    /// Returns whether this candidate is better than another.
+    /// Returns whether this candidate match is better than another.
     pub(in crate::transition) fn is_better_than(&self, other: &Self) -> bool {
         // Comparisons with NaN are false: an undefined misfit is never better.
         self.comparison_key() < other.comparison_key()
@@ -148,14 +150,15 @@ impl MatchCandidate {
         self.defects.rotation.abs() <= MAX_UPRIGHT_ROTATION
     }
 
-    /// Returns the quantities by which candidates are compared, the most important first; lower is
-    /// better.
+    /// Returns the quantities by which candidate matches are compared, the most important first;
+    /// lower is better.
     fn comparison_key(&self) -> (usize, usize, f64) {
         (self.defects.folds, self.defects.crossings, self.misfit())
     }
 
-    /// Returns the misfit: the distortion, multiplied by factors for excess turning, rotation and
-    /// excess area; at least 1.
+    /// Returns the misfit, which is at least 1: the distortion, multiplied by factors for the
+    /// defects [`MotionDefects::turning`], [`MotionDefects::rotation`] and
+    /// [`MotionDefects::swelling`].
     pub(in crate::transition) fn misfit(&self) -> f64 {
         let turning = (1.0 + self.defects.turning).powi(TURNING_EXPONENT);
         let rotation = (1.0 + self.defects.rotation.abs() / PI).powi(ROTATION_EXPONENT);
@@ -189,11 +192,12 @@ impl MotionDefects {
                 .iter()
                 .filter_map(|(_, hole)| hole.ring_at(places, t));
             let rings: Vec<Vec<DVec2>> = loops.iter().map(ring).chain(holes).collect();
-            // A hole that has disappeared still counts as a point, whose outline turns once.
+            // A hole that has disappeared still counts as a point. Its outline turns by 2π, as that
+            // of a convex hole does, so the total turning does not jump.
             let absent = loops.len() + unmatched_holes.len() - rings.len();
             turned.push([t, total_turning(&rings, diameter) + TAU * absent as f64]);
             areas.push([t, rings.iter().map(|ring| signed_area(ring)).sum::<f64>()]);
-            // At t = 0 and t = 1, the frames are the designs themselves, which have no defects.
+            // The frames at t = 0 and t = 1 are the designs themselves, which have no defects.
             if step > 0 && step < STEPS {
                 folds += count_folded(arap, places);
                 crossings += count_crossings(&rings);

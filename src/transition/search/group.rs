@@ -1,5 +1,5 @@
 //! Matches the pieces of a group of parts with several variants of the match options and selects
-//! the best candidate for each piece.
+//! the best match of each piece.
 
 use super::candidate::{CandidateError, MatchCandidate};
 use crate::compatible::PieceMeshError;
@@ -9,12 +9,11 @@ use crate::transition::spec::TransitionSpec;
 use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled};
 use rayon::prelude::*;
 
-/// Progress in trying one variant of the match options, in [0, 1], reported once the pieces are
-/// matched with it (heuristic).
+/// Share of the work on one variant of the match options, in [0, 1], that is done once the pieces
+/// are matched with it (heuristic).
 const MATCH_PROGRESS: f64 = 0.2;
 
-/// The result for a piece: its best candidate, or the matched piece and the reason why it cannot be
-/// triangulated.
+/// The result for a piece: its best match, or a match that cannot be triangulated and the reason.
 pub(in crate::transition) type PieceResult = Result<MatchCandidate, (PieceMatch, PieceMeshError)>;
 
 /// Options with which the pieces of a group are matched.
@@ -24,8 +23,7 @@ pub(in crate::transition) struct MatchVariant {
     pub(in crate::transition) holes: HolePolicy,
 }
 
-/// Returns the match of the piece in its best candidate so far, or the match that cannot be
-/// triangulated.
+/// Returns the best match of the piece so far, or the match that cannot be triangulated.
 pub(in crate::transition) fn piece_of_result(chosen: &PieceResult) -> &PieceMatch {
     match chosen {
         Ok(best) => &best.matched,
@@ -55,7 +53,8 @@ impl GroupSearch<'_> {
     /// Matches the pieces with the requested match options.
     ///
     /// # Errors
-    /// If the group cannot be matched, a candidate cannot be solved, or the work is cancelled.
+    /// If the group cannot be matched, the motion of a match cannot be solved, or the work is
+    /// cancelled.
     pub(in crate::transition) fn requested_pieces(
         &self,
         progress: &dyn Progress,
@@ -72,8 +71,8 @@ impl GroupSearch<'_> {
             .collect()
     }
 
-    /// Tries several variants for the `selected` pieces, and replaces their candidates in `chosen`
-    /// by better ones.
+    /// Tries several variants of the match options for the `selected` pieces, and replaces their
+    /// matches in `chosen` by better ones.
     ///
     /// # Errors
     /// If the work is cancelled.
@@ -93,8 +92,8 @@ impl GroupSearch<'_> {
         Ok(())
     }
 
-    /// For each variant, returns the candidates of all pieces; `None` for pieces that are not
-    /// `selected` or cannot be triangulated or solved.
+    /// For each variant of the match options, returns the candidate matches of all pieces; `None`
+    /// for pieces that are not `selected` or cannot be triangulated or solved.
     ///
     /// # Errors
     /// If the work is cancelled.
@@ -123,7 +122,7 @@ impl GroupSearch<'_> {
                         .ok()
                 };
                 let candidate = is_selected.then(new);
-                // A failed candidate is skipped, but a cancellation must end the work.
+                // A candidate match that failed is skipped, but a cancellation must end the work.
                 check_cancelled(progress)?;
                 Ok(candidate.flatten())
             });
@@ -133,8 +132,8 @@ impl GroupSearch<'_> {
     }
 }
 
-/// Replaces the result of each piece by its candidate if that is better; if both are equal, the
-/// result stays.
+/// Replaces the match of each piece by the candidate match if that is better; if both are equal,
+/// the previous match stays.
 pub(in crate::transition) fn take_better(
     chosen: &mut [PieceResult],
     candidates: Vec<Option<MatchCandidate>>,

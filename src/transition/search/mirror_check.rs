@@ -18,8 +18,8 @@ use crate::work::progress::{Progress, check_cancelled};
 /// (heuristic).
 const GOOD: f64 = 2.0;
 
-/// Mirroring counts as far better if the distortion of the mirrored draft is below this fraction of
-/// the distortion of the best match as drawn (heuristic).
+/// Mirroring counts as far better if the distortion of the draft match with one design mirrored is
+/// below this fraction of the distortion of the best match as drawn (heuristic).
 const FAR_BETTER: f64 = 0.4;
 
 /// Returns a note if the designs would match far better if one of them were mirrored; otherwise
@@ -46,7 +46,7 @@ pub(in crate::transition) fn mirror_note(
     let target = mirror(target);
     let draft = draft(spec, [source, &target], &drawings.appearances, progress);
     check_cancelled(progress)?;
-    // A mirrored draft that folds is no evidence of a better match.
+    // A mirrored draft match that folds is no evidence that mirroring would help.
     let draft = draft.filter(|draft| !draft.iter().any(MatchCandidate::folds));
     let mirrored = draft.map(|draft| distortion(draft.iter()));
     let far_better = mirrored.filter(|mirrored| *mirrored < FAR_BETTER * as_drawn);

@@ -1,8 +1,7 @@
-//! Slides the boundary correspondence of the best candidates along their outlines, and chooses
-//! between the results of the search.
+//! Slides corresponding points of the best matches along the outlines, and chooses the better of
+//! the two results of the search.
 //!
-//! Sliding is repeated as long as it improves the motion of the candidate, at most [`MAX_SLIDES`]
-//! times.
+//! Sliding is repeated as long as it improves the motion, at most [`MAX_SLIDES`] times.
 
 use super::candidate::MatchCandidate;
 use super::group::{PieceResult, take_better};
@@ -15,13 +14,13 @@ use rayon::prelude::*;
 /// Maximum number of times that the correspondence of a piece is slid (resource limit).
 const MAX_SLIDES: u32 = 3;
 
-/// Distortion below which a candidate is not improved further. Matches between two drawings of the
-/// same shape have so little distortion (heuristic).
+/// Distortion below which a match is not improved further. Two drawings of the same shape have a
+/// distortion below this (heuristic).
 pub(super) const LOW_DISTORTION: f64 = 1.02;
 
-/// For each piece, slides its candidate in `paired` and, if there is one, its candidate in
-/// `unpaired`, in which no holes are matched. Returns the better of the two. `unpaired` has one
-/// entry per piece or is empty.
+/// For each piece, slides the corresponding points of its match in `paired` and, if there is one,
+/// of its match in `unpaired`, in which no holes are matched. Returns the better of the two.
+/// `unpaired` has one entry per piece or is empty.
 ///
 /// # Errors
 /// If the work is cancelled.
@@ -42,8 +41,8 @@ pub(super) fn slide_and_choose(
         let [first, second] =
             [(0.0, 0.5), (0.5, 1.0)].map(|(from, to)| ProgressSpan::new(&share, from, to));
         let mut best = slide_piece(paired, spec, &first)?;
-        // The two candidates are compared only after sliding. Sliding can repair a match of holes
-        // that folds, as between the letters D and P.
+        // The two matches are compared only after sliding, because sliding can repair a match of
+        // holes that folds, as between the letters D and P.
         let unpaired = slide_while_better(unpaired, spec, &second)?;
         take_better(std::slice::from_mut(&mut best), vec![Some(unpaired)]);
         Ok(best)
@@ -51,7 +50,8 @@ pub(super) fn slide_and_choose(
     chosen.collect()
 }
 
-/// Slides the candidate of a piece; a piece that could not be triangulated is returned unchanged.
+/// Slides the corresponding points of the match of a piece. Without a triangulation, returns
+/// `result` unchanged.
 ///
 /// # Errors
 /// If the work is cancelled.
@@ -66,8 +66,8 @@ fn slide_piece(
     }
 }
 
-/// Slides the boundary correspondence of a candidate along the outlines as long as that improves
-/// its motion.
+/// Slides the corresponding points of a match along the outlines as long as that improves its
+/// motion.
 ///
 /// # Errors
 /// If the work is cancelled.

@@ -1,4 +1,5 @@
-//! Tests that the outlines of rigid parts turn evenly during the motion.
+//! Tests that the outline terms in the energy of rigid parts keep outlines from bending during the
+//! motion.
 
 use super::*;
 use crate::design::import_file;
@@ -6,9 +7,10 @@ use crate::geometry::{count_crossings, max_overshoot, total_turning};
 use crate::warp::{Arap, Warp};
 use std::path::Path;
 
-/// Returns the largest amount by which the total turning of the outlines exceeds the linear
-/// interpolation of its values at t = 0 and t = 1, as a fraction of that interpolation. Also
-/// returns the number of crossings of the outlines, summed over all samples.
+/// Returns the largest excess of the total turning (the sum of the absolute exterior angles of the
+/// outlines) above its linear interpolation between t = 0 and t = 1, as a fraction of the
+/// interpolated value. Also returns the number of crossings of the outlines, summed over all
+/// samples.
 fn excess_and_crossings(arap: &Arap) -> (f64, usize) {
     let mut placer = arap.placer();
     let loops = arap.mesh().boundary_loops();

@@ -68,8 +68,8 @@ fn the_ends_are_the_drawings_and_exchanging_them_reverses_the_motion() {
     }
     for k in 0..=8 {
         let t = f64::from(k) / 8.0;
-        // At t = ½ the order has already changed to that of the respective target, so the two
-        // directions differ there.
+        // At t = ½, each direction already shows the stacking order of its own target, so the two
+        // differ.
         if k != 4 {
             assert_same(&visible_layers(&there, t), &visible_layers(&back, 1.0 - t));
         }

@@ -125,7 +125,7 @@ fn of_overlapping_parts_the_uppermost_waits() {
     };
     let plain = Transition::build(&TransitionSpec::new(stack(0.0), stack(30.0)), &Silent).unwrap();
     let bounds = plain.designs()[0].form.bounds();
-    // Returns the t that each layer has reached, the lowest first.
+    // Returns the t at which the paint of each layer is mixed, the lowest layer first.
     let layer_times = |at: DVec2| -> Vec<f64> {
         let timed = plain.with_part_times(&[late(Side::Source, at.into())]);
         let coats = timed.frame(0.75).figure().layers;

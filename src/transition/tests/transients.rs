@@ -80,7 +80,7 @@ fn an_unmatched_hole_crosses_nothing() {
 
 #[test]
 fn a_hole_makes_way_for_one_inside_it() {
-    // While the large hole exists, the small one would cross it at any time.
+    // As long as the large hole exists, the small one would cross it, whatever its time window.
     let window = svg("M5 20h90v60h-90z M20 30v40h60v-40z");
     let dot = svg("M5 20h90v60h-90z M45 45v10h10v-10z");
     for (a, b) in [(&window, &dot), (&dot, &window)] {
@@ -139,7 +139,7 @@ fn designs_that_would_match_better_mirrored_give_a_note() {
     }
 }
 
-/// Returns the number of parts that swell.
+/// Returns the number of swelling parts, which grow in thickness within their outline.
 fn swelling(transition: &Transition) -> usize {
     match transition.content() {
         Content::Solid(solid) => solid.swelling_shapes.len(),
@@ -247,7 +247,7 @@ fn absent_parts_are_not_drawn() {
         let transition = Transition::build(&spec, &Silent).unwrap();
         let rings = |t: f64| transition.frame(t).figure().rings.len();
         assert_eq!([rings(0.0), rings(1.0)], expected);
-        // Outside [0, 1] no part appears or disappears.
+        // Outside [0, 1], the same parts exist as at the nearer of t = 0 and t = 1.
         assert_eq!([rings(-0.2), rings(1.2)], expected);
         assert_eq!(rings(0.5), 2);
     }

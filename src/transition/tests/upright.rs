@@ -1,4 +1,5 @@
-//! Tests that designs stay upright if this costs little, and turn if they are rotated copies.
+//! Tests that designs stay upright if that hardly worsens the match, and rotate if one is a rotated
+//! copy of the other.
 
 use super::*;
 use crate::design::import_file;

@@ -1,11 +1,11 @@
 //! Holes that exist in only one design and do not affect the motion: their position and time
 //! window.
 //!
-//! Holes choose their windows one after the other, the largest first. Each takes the window that
-//! suits the schedule best among those in which it crosses no boundary and no hole placed before
-//! it. If every window has a crossing, the hole takes the one with the fewest, and the other holes
-//! then choose again and avoid it. Crossings are detected only at sample times; those between two
-//! sample times are missed.
+//! Time windows are chosen for one hole after the other, the largest first. Each hole gets the time
+//! window that suits the schedule best among those in which it crosses no boundary and no hole
+//! placed before it. If the hole crosses something in every time window, it gets the one with the
+//! fewest crossings. The time windows of all other holes are then chosen again, so that they avoid
+//! it. Crossings are detected only at sample times; those between two sample times are missed.
 
 use super::boundary_loops::SharedPartLoops;
 use super::layered_outline::LayeredOutline;
@@ -20,17 +20,18 @@ use crate::warp::{Arap, Placer, TimeWindow, Warp};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
 
-/// Maximum number of times that the holes choose again (resource limit: each takes as long as the
-/// first choice).
+/// Maximum number of times that the time windows of all holes are chosen again (resource limit:
+/// each takes as long as the first choice).
 const MAKING_WAY: u32 = 3;
 
-/// Cost of a window in which a hole crosses something, compared with overshoot (heuristic).
+/// Cost of a time window in which a hole crosses something. It is added to the relative overshoot
+/// of turning and area beyond the two designs (heuristic).
 const CROSSING: f64 = 10.0;
 
 /// Index of a piece, and a hole in it that exists in only one design.
 pub(in crate::transition) type PieceHole = (usize, TransientHole);
 
-/// Returns all holes that exist in only one design, with windows that are as long as possible.
+/// Returns all holes that exist in only one design, with time windows that are as long as possible.
 /// Piece k is component k of the mesh of `film`.
 ///
 /// # Errors
@@ -46,7 +47,7 @@ pub(in crate::transition) fn timed(
     timed_by(pieces, film, levels, &long, progress)
 }
 
-/// Returns all holes that exist in only one design, with windows chosen from the schedule that
+/// Returns all holes that exist in only one design, with time windows from the schedule that
 /// `timetable` creates for them.
 ///
 /// # Errors
@@ -75,8 +76,8 @@ pub(in crate::transition) fn timed_by(
         let lives = scene.lives((&holes, &order), levels, timetable.clone(), progress)?;
         let crossed = lives.iter().map(|(_, _, crossed)| crossed).sum();
         let late = lives.iter().position(|&(_, _, crossed)| crossed > 0);
-        // The first hole with a crossing chooses before all others next time and keeps its window.
-        // If it already chose first, nothing can improve.
+        // In the next round, the first hole with a crossing keeps its time window and comes first.
+        // If it came first already, nothing can improve.
         let late = late.filter(|&late| late > 0);
         if let Some(late) = late {
             order[late].1 = Some(lives[late].1);
@@ -95,8 +96,8 @@ pub(in crate::transition) fn timed_by(
     Ok(holes)
 }
 
-/// Returns all holes that exist in only one design, with the given windows in this order; `None` if
-/// their number or designs differ from those of the windows.
+/// Returns all holes that exist in only one design, with the given time windows in this order;
+/// `None` if the number of holes, or the design of one of them, does not fit the time windows.
 pub(in crate::transition) fn with_lives(
     pieces: &[PieceMatch],
     mesh: &CompatibleMesh,
@@ -113,8 +114,9 @@ pub(in crate::transition) fn with_lives(
     Some(holes)
 }
 
-/// Returns all holes with the window [0, 1], the largest first. Holes of equal area are in the
-/// order of their pieces, which is the same when the designs are swapped.
+/// Returns all holes that exist in only one design, with the time window [0, 1], the largest first.
+/// Holes of equal area are in the order of their pieces, which is the same when the designs are
+/// swapped.
 fn untimed(pieces: &[PieceMatch], mesh: &CompatibleMesh) -> Vec<PieceHole> {
     if pieces.iter().all(|piece| piece.lone.is_empty()) {
         return Vec::new();
@@ -165,9 +167,9 @@ impl HoleScene {
         }
     }
 
-    /// Lets the holes choose their windows in the given order; a hole with a window in `order`
-    /// keeps it. Returns the index of each hole, its window, and the number of times at which it
-    /// crosses something.
+    /// Chooses the time windows of the holes in the given order; a hole with a time window in
+    /// `order` keeps it. Returns the index of each hole, its time window, and the number of sample
+    /// times at which it crosses something.
     fn lives(
         &mut self,
         (holes, order): (&[PieceHole], &[(usize, Option<TimeWindow>)]),
@@ -195,7 +197,7 @@ impl HoleScene {
         Ok(lives)
     }
 
-    /// Returns the collision cost of each candidate window of a hole.
+    /// Returns the collision cost of each time window in [`eighths`] for a hole.
     fn prices(&self, hole: &TransientHole, level: usize) -> Vec<f64> {
         let price = |life: TimeWindow| {
             let mut hole = hole.clone();
@@ -206,8 +208,8 @@ impl HoleScene {
         lives.into_par_iter().map(price).collect()
     }
 
-    /// Returns the first window with the fewest crossings, and their number; only `known` is
-    /// considered if it is given.
+    /// Returns the first time window with the fewest crossings, and the number of crossings. If
+    /// `known` is given, only that time window is considered.
     fn life(
         &self,
         hole: &TransientHole,
@@ -228,8 +230,8 @@ impl HoleScene {
         (best.1, best.0)
     }
 
-    /// Returns the number of times, at most `most`, at which the hole crosses itself or something
-    /// else.
+    /// Returns the number of sample times, at most `most`, at which the hole crosses itself or
+    /// something else.
     fn crossed(&self, hole: &TransientHole, level: usize, most: usize) -> usize {
         let steps = self
             .times

@@ -22,7 +22,7 @@ impl PieceLayers {
         Self::of_parts(matched.pieces.iter().map(parts), looks)
     }
 
-    /// Returns the layers of pieces that are given by their parts in source and target.
+    /// Returns the layers of pieces. Each piece is given by its parts in source and target.
     pub(in crate::transition) fn of_parts(
         pieces: impl Iterator<Item = [Option<usize>; 2]>,
         looks: &PartAppearances,
@@ -31,8 +31,8 @@ impl PieceLayers {
             Side::BOTH.map(|side| parts[side].map(|part| looks.paint_layer(side, part)))
         };
         let mut of_pieces: Vec<[Option<usize>; 2]> = pieces.map(coats).collect();
-        // A piece that exists in only one design joins the layer that most pieces of its paint
-        // layer belong to.
+        // A piece that exists in only one design joins the layer to which most pieces of the same
+        // paint layer belong.
         let both: Vec<[Option<usize>; 2]> = of_pieces.clone();
         for own in &mut of_pieces {
             for side in Side::BOTH {
@@ -60,8 +60,8 @@ impl PieceLayers {
     }
 }
 
-/// Returns the paint layer of the other design to which most pieces of the paint layer `coat` of
-/// design `side` go; the lowest index if several are equally frequent.
+/// Returns the paint layer of the other design with which most pieces of the paint layer `coat` of
+/// design `side` are matched; the lowest index if several are equally frequent.
 fn partner(pieces: &[[Option<usize>; 2]], side: Side, coat: Option<usize>) -> Option<usize> {
     let mut counts = BTreeMap::new();
     for piece in pieces.iter().filter(|piece| piece[side] == coat) {

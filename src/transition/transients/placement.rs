@@ -1,13 +1,14 @@
 //! Chooses the position and the time window of each part that exists in only one design.
 //!
 //! In the other design, such a part is a tiny seed shape ([`TransientPart`]), whose position is
-//! free. It grows from the seed shape, or shrinks to it, within its time window. Alternatively it
-//! swells: it then grows in thickness and stays within its own outline. Positions and windows are
-//! chosen such that the part collides with nothing ([`TransientScene`]). Parts are placed one after
-//! the other, the largest first, and avoid both the matched parts and the parts placed before them.
+//! chosen here. The part grows from the seed shape, or shrinks to it, within its time window.
+//! Alternatively the part swells: it grows in thickness and stays within its final outline.
+//! Positions and time windows are chosen such that the part collides with nothing
+//! ([`TransientScene`]). Parts are placed one after the other, the largest first, and avoid both
+//! the matched parts and the parts placed before them.
 //!
-//! Guaranteed: swapping the designs gives the same positions and the reversed windows, unless two
-//! parts have equal area. Not guaranteed: that a position without collisions exists, or that
+//! Guaranteed: swapping the designs gives the same positions and the reversed time windows, unless
+//! two parts have equal area. Not guaranteed: that a position without collisions exists, or that
 //! nothing collides between the sample times ([`SampleTimes`]).
 
 mod anchor;
@@ -28,8 +29,8 @@ use crate::transition::options::BuildQuality;
 use crate::warp::{Arap, TimeWindow};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
-/// Parts beyond this rank (by size) get no position search (resource limit: each search examines
-/// all other parts at every sample time).
+/// Number of largest parts whose positions are searched (resource limit: each search examines all
+/// other parts at every sample time).
 const SEARCHED: usize = 100;
 
 /// Returns the initial time windows: [0, 1] for a piece that exists in only one design, `None` for
@@ -69,13 +70,14 @@ fn timetable_of(
     }
 }
 
-/// A match and its mesh, with all parts that exist in only one design in their positions.
+/// A match and its mesh, after all parts that exist in only one design were moved to their chosen
+/// positions.
 pub(in crate::transition) struct PlacedTransients {
     pub matched: RegionMatch,
     pub mesh: CompatibleMesh,
     /// For each piece, its time window; `None` for a matched piece.
     pub lives: Vec<Option<TimeWindow>>,
-    /// Indices of the pieces that swell.
+    /// Indices of the pieces that swell, that is, grow in thickness within their outline.
     pub swelling: Vec<usize>,
 }
 

@@ -13,8 +13,8 @@ const SUBDIVIDED_STEPS: u32 = 2;
 const SUBDIVISION: u32 = 4;
 
 /// Length, in units of t, of the intervals into which the steps near t = 0 and t = 1 are
-/// subdivided. The interval that begins at t = 0 and the one that ends at t = 1 are subdivided once
-/// more. If no longer time window suits a part, it appears or disappears within this time.
+/// subdivided. The first and the last of these intervals are subdivided once more. A part that
+/// collides in all longer time windows appears or disappears within this length of t.
 pub(in crate::transition) const FINE_STEP: f64 = 1.0 / (EVEN_STEPS * SUBDIVISION) as f64;
 
 /// Added times are rounded to multiples of this, so that the reversed motion has the same times
@@ -89,7 +89,7 @@ mod tests {
             assert_eq!(pair[0], 1.0 - times[steps.last() - step]);
             assert_eq!(steps.before(pair[0] + 1e-6), step);
         }
-        // Time windows begin and end at eighths.
+        // Time windows begin and end at multiples of 1/8, so these must be sample times.
         assert!(
             (0..=8)
                 .map(|k| f64::from(k) / 8.0)

@@ -2,13 +2,14 @@
 //!
 //! A single such part looks best if it changes its size throughout the motion. If all do, they are
 //! all half visible halfway: the turning of the outlines is that of both designs together, and the
-//! area overshoots, or undershoots for holes. All windows are therefore chosen together, such that
-//! turning and area overshoot the two designs as little as possible
-//! ([`Rating::overshoot`](crate::measure::Rating::overshoot)). If a part collides in its window, it
-//! takes the next best one, and the parts that follow take that into account.
+//! area overshoots, or undershoots for holes. All time windows are therefore chosen together, such
+//! that turning (the sum of absolute exterior angles) and area exceed those of the two designs as
+//! little as possible ([`Rating::overshoot`](crate::measure::Rating::overshoot)). If a part
+//! collides in its time window, it gets the next best one. The time windows of the following parts
+//! are adapted to that choice.
 //!
-//! Guaranteed: swapping the designs reverses the windows. Not guaranteed: that there is no better
-//! schedule.
+//! Guaranteed: swapping the designs reverses the time windows. Not guaranteed: that there is no
+//! better schedule.
 
 mod optimise;
 
@@ -22,21 +23,23 @@ use crate::warp::{Arap, Placer, TimeWindow, Warp};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// Number of equal steps of t over which the overshoot is measured (resource limit).
+/// Number of equal steps of t over which the overshoot of turning and area is measured (resource
+/// limit).
 const STEPS: usize = 64;
 
-/// Cost for each unit of t during which a part does not change its size, compared with the relative
-/// overshoot of turning or area (heuristic).
+/// Cost for each unit of t during which a part does not change its size. It is added to the
+/// relative overshoot of turning and area beyond the two designs (heuristic).
 const WAIT: f64 = 0.05;
 
 /// Maximum additional cost of a schedule in which parts of a word appear and disappear in reading
 /// order (heuristic).
 const ORDERLY: f64 = 0.05;
 
-/// Lengths, in units of t, of two extra windows for a part that collides in all windows of whole
-/// eighths (heuristic). The part visibly jumps, which is less bad than a collision.
+/// Lengths, in units of t, of two extra time windows for a part that collides in all time windows
+/// between multiples of 1/8 (heuristic). The part visibly jumps, which is less bad than a
+/// collision.
 const JUMPS: [f64; 2] = [1.0 / 16.0, 1.0 / 32.0];
-/// Additional cost of the windows in [`JUMPS`]: once for the first, twice for the second
+/// Additional cost of the time windows in [`JUMPS`]: once for the first, twice for the second
 /// (heuristic).
 const JUMP: f64 = 0.125;
 
@@ -44,8 +47,8 @@ const JUMP: f64 = 0.125;
 /// (tolerance: above the rounding of the sums).
 const GRAIN: f64 = 1e-9;
 
-/// Returns a window of length `long` that starts at t = 0 for a part of the source, and ends at
-/// t = 1 for a part of the target.
+/// Returns a time window of length `long` that starts at t = 0 for a part of the source, and ends
+/// at t = 1 for a part of the target.
 pub(in crate::transition) fn life(side: Side, long: f64) -> TimeWindow {
     let whole = TimeWindow::whole(side);
     match side {
@@ -57,8 +60,8 @@ pub(in crate::transition) fn life(side: Side, long: f64) -> TimeWindow {
     }
 }
 
-/// Returns the candidate windows: all that start and end at multiples of 1/8. The longest come
-/// first; among equally long ones, those at the part's own design.
+/// Returns all time windows that start and end at multiples of 1/8, the longest first. Among
+/// equally long ones, those nearest to the t of design `side` come first.
 pub(in crate::transition) fn eighths(side: Side) -> impl Iterator<Item = TimeWindow> {
     let at = |eighths: u32| f64::from(eighths) / 8.0;
     let life = move |(long, kept): (u32, u32)| match side {
@@ -88,19 +91,20 @@ struct ScheduledTransient {
     /// Centre of the part or hole in its design.
     place: DVec2,
     life: TimeWindow,
-    /// Collision cost of each candidate window; empty if unknown.
+    /// Collision cost of each time window in [`eighths`]; empty if unknown.
     prices: Vec<f64>,
 }
 
 impl ScheduledTransient {
-    /// Returns the cost of the window apart from overshoot: waiting time and collisions.
+    /// Returns the cost of the time window without the overshoot of turning and area: the waiting
+    /// time and the collisions.
     fn price(&self) -> f64 {
         let mut priced = eighths(self.life.side).zip(&self.prices);
         let price = priced.find(|(life, _)| *life == self.life);
         WAIT * wait(self.life) + price.map_or(0.0, |(_, price)| *price)
     }
 
-    /// Returns the same part with another window.
+    /// Returns the same part with another time window.
     fn within(&self, life: TimeWindow) -> Self {
         Self {
             life,
@@ -108,7 +112,7 @@ impl ScheduledTransient {
         }
     }
 
-    /// Adds `times` times the turning and area of the part to the sums at each step.
+    /// Adds the turning and the area of the part, multiplied by `times`, to the sums at each step.
     fn add(&self, sums: &mut [[f64; 2]], times: f64) {
         let last = sums.len().saturating_sub(1) as f64;
         for (k, sum) in sums.iter_mut().enumerate() {
@@ -128,14 +132,14 @@ impl ScheduledTransient {
 #[derive(Clone)]
 pub(in crate::transition) struct TransientSchedule {
     coming: Vec<ScheduledTransient>,
-    /// At each step, the turning and the area of everything that is drawn; empty if the windows are
-    /// not optimised.
+    /// At each step, the turning and the area of everything that is drawn; empty if the time
+    /// windows are not optimised.
     sums: Vec<[f64; 2]>,
 }
 
 impl TransientSchedule {
-    /// Creates a schedule in which each part or hole uses the longest window in which it does not
-    /// collide, regardless of the others.
+    /// Creates a schedule in which each part or hole uses the longest time window in which it does
+    /// not collide, regardless of the others.
     pub(in crate::transition) fn long(sides: impl Iterator<Item = Side>) -> Self {
         let coming = sides.map(|side| ScheduledTransient {
             growth: GrowthProfile::NONE,
@@ -151,8 +155,8 @@ impl TransientSchedule {
     }
 
     /// Creates a schedule to be optimised. It takes into account the turning and area of the
-    /// matched parts of `film`. Each item of `parts` holds the design that has the part, its
-    /// position there, and its rings about that position.
+    /// matched parts of `film`. Each item of `parts` holds the design that has the part, the
+    /// position of the part in that design, and its rings relative to that position.
     pub(in crate::transition) fn of<'a>(
         film: &Arap,
         holes: impl Iterator<Item = &'a TransientHole>,
@@ -203,9 +207,10 @@ impl TransientSchedule {
         all
     }
 
-    /// Returns the candidate windows with their costs above the cheapest, in increasing order,
-    /// while all other windows are fixed. The current window is cheaper by [`ORDERLY`], so that the
-    /// reading order is preserved. The short windows of [`JUMPS`] come last.
+    /// Returns the time windows of the part or hole with index `k` in increasing order of cost,
+    /// each with the amount by which it costs more than the cheapest. All other time windows are
+    /// fixed. The current time window is made cheaper by [`ORDERLY`], so that the reading order is
+    /// preserved. The short time windows in [`JUMPS`] come last.
     pub(in crate::transition) fn ranked(&self, k: usize) -> Vec<(f64, TimeWindow)> {
         let (now, mut ranked) = (self.coming[k].life, self.costs(k));
         for (cost, life) in &mut ranked {
@@ -220,16 +225,16 @@ impl TransientSchedule {
         ranked
     }
 
-    /// Returns the cost of each candidate window while all other windows are fixed, in the order of
-    /// [`eighths`].
+    /// Returns the cost of each time window in [`eighths`] for the part or hole with index `k`,
+    /// while all other time windows are fixed.
     fn costs(&self, k: usize) -> Vec<(f64, TimeWindow)> {
         let (coming, rest) = (&self.coming[k], self.without(k));
         let cost = |life| (cost(&coming.within(life), &rest), life);
         eighths(coming.life.side).map(cost).collect()
     }
 
-    /// Returns the additional cost if a part has another growth profile in the given window; at
-    /// least 0.
+    /// Returns by how much the cost increases if a part with the given time window has the growth
+    /// profile `growth`; at least 0.
     pub(in crate::transition) fn extra(
         &self,
         k: usize,
@@ -241,7 +246,7 @@ impl TransientSchedule {
         (cost(&ScheduledTransient { growth, ..coming }, &rest) - plain).max(0.0)
     }
 
-    /// Sets the window of a part or hole.
+    /// Sets the time window of a part or hole.
     pub(in crate::transition) fn set(&mut self, k: usize, life: TimeWindow) {
         self.coming[k].add(&mut self.sums, -1.0);
         self.coming[k].life = life;
@@ -255,7 +260,7 @@ impl TransientSchedule {
         self.coming[k].add(&mut self.sums, 1.0);
     }
 
-    /// Returns the turning and area at each step without one part or hole.
+    /// Returns the turning and area at each step of everything except one part or hole.
     fn without(&self, k: usize) -> Vec<[f64; 2]> {
         let mut sums = self.sums.clone();
         self.coming[k].add(&mut sums, -1.0);
@@ -272,7 +277,8 @@ impl TransientSchedule {
     }
 }
 
-/// Returns the cost of one part or hole in addition to the sums of all others.
+/// Returns the cost of one part or hole: its own price plus the overshoot of turning and area of
+/// everything. `others` are the sums without this part or hole.
 fn cost(coming: &ScheduledTransient, others: &[[f64; 2]]) -> f64 {
     let mut sums = others.to_vec();
     coming.add(&mut sums, 1.0);
@@ -285,7 +291,8 @@ fn wait(life: TimeWindow) -> f64 {
     1.0 - (life.to - life.from)
 }
 
-/// Returns the overshoot of turning and area beyond the two designs, as the sum of two fractions.
+/// Returns how much turning and area exceed what the two designs require, as the sum of two
+/// fractions.
 fn unrest(sums: &[[f64; 2]]) -> f64 {
     if sums.is_empty() {
         return 0.0;

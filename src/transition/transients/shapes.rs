@@ -7,8 +7,9 @@ use crate::warp::{Arap, TimeWindow};
 use rayon::iter::Either;
 use rayon::prelude::*;
 
-/// Returns the parts that swell, and the parts that grow from a seed shape. `swelling` contains the
-/// indices of the pieces that swell; piece k is component k of the mesh.
+/// Returns the parts that swell (grow in thickness within their outline), and the parts that grow
+/// from a seed shape. `swelling` contains the indices of the pieces that swell; piece k is
+/// component k of the mesh.
 pub(in crate::transition) fn drawn(
     film: &Arap,
     swelling: &[usize],
@@ -30,13 +31,13 @@ pub(in crate::transition) fn drawn(
             }),
         })
     };
-    // This runs in parallel, because the thickness of a swelling part takes long to compute.
+    // This runs in parallel, because the outlines of a swelling part take long to compute.
     let lives = film.time_windows().par_iter().enumerate();
     lives.filter_map(drawn).partition_map(|drawn| drawn)
 }
 
-/// Creates a swelling part from its boundary loops, given by their indices in `loops`; `None` if
-/// there are none.
+/// Creates a swelling part from its boundary loops. `loops` holds all boundary loops, and `walks`
+/// the indices of those of the part; `None` if there are none.
 fn swell(
     mesh: &CompatibleMesh,
     loops: &[Vec<u32>],
@@ -46,7 +47,7 @@ fn swell(
     let places = [mesh.source(), mesh.target()][life.side];
     let ring = |&walk: &usize| loops[walk].iter().map(|&v| places[v as usize]).collect();
     let mut rings: Vec<Vec<DVec2>> = walks.iter().map(ring).collect();
-    // The outer loop comes first, because it places the shape.
+    // The outer loop comes first, because its points determine the position of the shape.
     let outer = |k: &usize| signed_area(&rings[*k]);
     let first = (0..walks.len()).max_by(|a, b| outer(a).total_cmp(&outer(b)))?;
     walks.swap(0, first);

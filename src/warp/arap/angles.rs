@@ -2,15 +2,16 @@
 //!
 //! A polar decomposition determines the angle θ only modulo 2π. The angles of two faces with a
 //! shared edge differ by less than π, because a stretch rotates no vector by a right angle or more.
-//! The angles are therefore chosen face by face: among the angles that differ by 2π, a face takes
-//! the one nearest to that of its neighbour. The result is unique and independent of the order. A
-//! whole number of turns remains free for each edge-connected component (here called a part).
+//! The angles are therefore chosen face by face: among the angles that differ by multiples of 2π, a
+//! face takes the one nearest to the angle of its neighbour. The result does not depend on the
+//! order of the faces, except for a whole number of turns that all faces of an edge-connected
+//! component have in common.
 
 use crate::mesh::Connectivity;
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
-/// Inconsistent rotation angles.
+/// Reason why the rotation angles of the faces cannot be chosen consistently.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AngleError {
@@ -28,7 +29,8 @@ pub(super) fn nearest_branch(angle: f64, reference: f64) -> f64 {
     angle + TAU * ((reference - angle) / TAU).round()
 }
 
-/// Adds whole turns to `angles`, one per face, such that neighbours differ by less than π.
+/// Adds whole turns to `angles`, one angle per face, such that neighbouring faces differ by less
+/// than π.
 ///
 /// # Errors
 /// [`AngleError::Winding`] if the angles wind around a hole.
@@ -42,7 +44,8 @@ pub(super) fn make_consistent(
         if std::mem::replace(&mut done[seed], true) {
             continue;
         }
-        // The first face of a part keeps its angle; `choose_turns` adjusts the part later.
+        // The first face of a component keeps its angle; `choose_turns` adjusts the component
+        // later.
         queue.push_back(seed);
         while let Some(face) = queue.pop_front() {
             for other in (0..3).filter_map(|k| connectivity.neighbour(face, k)) {
@@ -61,7 +64,7 @@ pub(super) fn make_consistent(
     }
 }
 
-/// Returns the first pair of neighbours whose angles differ by more than π.
+/// Returns the first pair of neighbouring faces whose angles differ by more than π.
 fn first_jump(connectivity: &Connectivity, angles: &[f64]) -> Option<[usize; 2]> {
     (0..angles.len())
         .flat_map(|face| (0..3).map(move |k| (face, k)))
@@ -69,12 +72,14 @@ fn first_jump(connectivity: &Connectivity, angles: &[f64]) -> Option<[usize; 2]>
         .find(|&[a, b]| (angles[a] - angles[b]).abs() > PI)
 }
 
-/// Chooses the whole turns of each part.
+/// Chooses the whole turns of each edge-connected component of the faces. `part_of` holds the index
+/// of each face's component.
 ///
-/// Whole turns are added to all angles of a part, such that its mean angle is in (−π, π] for the
-/// first part and nearest to the best-fit rotation `whole` of the design for the other parts. Then
-/// the `extra_turns` are added. Returns `whole` plus the whole turns that bring it nearest to the
-/// final mean angle of the first part.
+/// The angles of a component are shifted by whole turns. The mean angle of the first component is
+/// then in (−π, π]. The mean angles of the other components are nearest to `whole`, the best-fit
+/// rotation of the design. Finally the `extra_turns` are added: one number for all components, or
+/// one for each. Returns `whole` plus the whole turns that bring it nearest to the final mean angle
+/// of the first component.
 pub(super) fn choose_turns(
     angles: &mut [f64],
     areas: &[f64],
@@ -88,7 +93,7 @@ pub(super) fn choose_turns(
         let sum = &mut sums[part as usize];
         *sum = (sum.0 + area * angle, sum.1 + area);
     }
-    // Faces have positive area, so no part has an area of 0.
+    // Faces have positive area, so no component has an area of 0.
     let means: Vec<f64> = sums.iter().map(|(sum, area)| sum / area).collect();
     let first = means.first().map_or(whole, |&mean| {
         let reduced = nearest_branch(mean, 0.0);
@@ -99,8 +104,8 @@ pub(super) fn choose_turns(
             reduced
         }
     });
-    // The other parts follow the whole design, which follows the first part. Otherwise two parts at
-    // +170° and −170° would rotate in opposite directions.
+    // The other components follow the whole design, which follows the first component. Otherwise
+    // two components at +170° and −170° would rotate in opposite directions.
     let whole = nearest_branch(whole, first);
     let extra = |part: usize| match extra_turns {
         [all] => f64::from(*all),

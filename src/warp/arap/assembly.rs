@@ -37,7 +37,8 @@ pub(super) struct FaceMap {
 }
 
 impl FaceMap {
-    /// Creates the map of a face with the given corners in source and target.
+    /// Combines the local map `map` of a face with its gradients. `sides` holds the corners of the
+    /// face in source and target.
     fn new(map: PolarDecomposition, sides: [[DVec2; 3]; 2], weights: [f64; 2]) -> Self {
         let [gradients, target_gradients] = sides.map(gradients);
         let back = edges(sides[0]) * edges(sides[1]).inverse();
@@ -52,8 +53,9 @@ impl FaceMap {
 
     /// Returns the face's 3×3 contribution to K.
     ///
-    /// Source and target contributions are computed separately and added. This stays positive
-    /// for extremely thin faces, for which rounding would destroy the smaller stiffness in W.
+    /// The contributions of source and target are computed separately and added. For extremely thin
+    /// faces, the sum stays positive. If it were computed from the weight matrix W_T, rounding
+    /// would destroy its smaller eigenvalue.
     fn energy(&self) -> [[f64; 3]; 3] {
         let sides = [self.gradients, self.target_gradients].map(all_gradients);
         let entry = |i: usize, j: usize| {
@@ -95,12 +97,14 @@ pub(super) struct LocalMaps {
     /// where a bar has the area length²/2. Masses are fractions of the total area, averaged over
     /// both designs.
     pub masses: Vec<f64>,
-    /// For each face, the factor of its weight; 1 for faces beyond the end of the list.
+    /// For each face, the factor by which its weight in the energy is multiplied; 1 for faces
+    /// beyond the end of the list.
     pub stiffness: Vec<f64>,
 }
 
 impl LocalMaps {
-    /// Computes the local maps of a mesh, with consistent angles.
+    /// Computes the local maps of a mesh, with rotation angles that are consistent across shared
+    /// edges.
     pub(super) fn new(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
@@ -183,11 +187,11 @@ impl LocalMaps {
         self
     }
 
-    /// Returns K with one vertex of each connected component grounded: its diagonal entry is
-    /// increased, which makes K regular.
+    /// Returns K with one vertex of each connected component grounded: the vertex's diagonal entry
+    /// is increased, which makes K regular.
     ///
-    /// The right-hand sides sum to zero over a component. The solution therefore has zero deviation
-    /// at the grounded vertex, and the choice of the vertex only translates the component.
+    /// The right-hand sides sum to zero over each component, so the solution is zero at the
+    /// grounded vertex. Grounding another vertex would only translate the component.
     pub(super) fn matrix(
         &self,
         mesh: &CompatibleMesh,
@@ -205,8 +209,8 @@ impl LocalMaps {
         matrix
     }
 
-    /// Returns K without grounding. This matrix is singular, because components may translate
-    /// freely.
+    /// Returns K before a vertex of each component is grounded. This matrix is singular, because
+    /// translating a component does not change the energy.
     pub(super) fn free_matrix(
         &self,
         mesh: &CompatibleMesh,
@@ -222,7 +226,7 @@ impl LocalMaps {
     fn energy(&self, mesh: &CompatibleMesh) -> (SymmetricMatrix, Vec<f64>) {
         let n = mesh.source().len();
         // Each face adds six entries and each element three. The capacity has a fourth entry per
-        // element, as room for grounding.
+        // element, as room for the diagonal entries that [`Self::matrix`] increases.
         let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
         let mut diagonal = vec![0.0; n];
         for (face, map) in mesh.faces().iter().zip(&self.faces) {
@@ -269,13 +273,14 @@ fn gradients(corners: [DVec2; 3]) -> DMat2 {
     edges(corners).inverse().transpose()
 }
 
-/// Returns the map M = D_Q D_P⁻¹ of a face, with its edge matrices D_P in the source and D_Q in the
-/// target.
+/// Returns the linear map M = D_Q D_P⁻¹ of a face from source to target, with its edge matrices D_P
+/// in the source and D_Q in the target.
 fn local_map(mesh: &CompatibleMesh, face: [u32; 3]) -> DMat2 {
     edges(corners(mesh.target(), face)) * edges(corners(mesh.source(), face)).inverse()
 }
 
-/// Returns the local map of a bar.
+/// Returns the local map of a bar: the similarity that takes it from source to target. Of all
+/// rotation angles that differ by whole turns, it has the one nearest to `whole_angle`.
 fn element_map(
     mesh: &CompatibleMesh,
     ends: [u32; 2],
@@ -286,8 +291,8 @@ fn element_map(
     let along = |points: &[DVec2]| points[ends[1] as usize] - points[ends[0] as usize];
     let (p, q) = (along(mesh.source()), along(mesh.target()));
     let (length_p, length_q) = (p.length_squared(), q.length_squared());
-    // The relative error |Δv − e|² / length² has the weight length²/2 with area weights and 1
-    // otherwise. The lengths here are already squared.
+    // The energy is the squared relative error |Δv − e|² / length², multiplied by the bar's area
+    // length²/2 with area weights and by 1 otherwise. The argument `length` is already squared.
     let side = |length: f64| if by_area { 0.5 } else { 1.0 / length };
     let stiffness = if symmetric {
         0.5 * (side(length_p) + side(length_q))

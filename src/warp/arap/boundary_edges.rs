@@ -4,9 +4,9 @@
 //! so that an outline that is smooth in both designs becomes jagged in between. To prevent this,
 //! each boundary edge is an element with the energy k |Δv − e(t)|², where Δv is the vector between
 //! its ends and e(t) the vector that it should have. The vector e(t) rotates at constant speed from
-//! the edge's vector in the source to its vector in the target. Of the rotation angles that lead
-//! from the one to the other and differ by full turns, it takes the one within 90° of the rotation
-//! angle of the edge's face. The length of e(t) comes from `edge_lengths`.
+//! the edge's vector in the source to its vector in the target. The possible rotation angles differ
+//! by full turns; the one within 90° of the rotation angle of the edge's face is taken. The length
+//! of e(t) comes from `edge_lengths`.
 //!
 //! The angle between the vectors e(t) of two edges thus changes linearly from source to target, so
 //! that the total turning of the outline does not exceed that of the designs.

@@ -1,21 +1,22 @@
-//! Local maps whose distortion (ratio of singular values) never exceeds that at the worse end.
+//! Local maps of the bounded homotopy: their distortion (ratio of singular values) is limited to
+//! that of the maps from source to target.
 //!
 //! Chen, Weber, Keren, Ben-Chen, "Planar shape interpolation with bounded distortion" (2013):
-//! squared edge lengths change linearly, l²(t) = (1−t) l₀² + t l₁², so that a face with the map M
-//! has the metric (1−t) I + t MᵀM. Its distortion never exceeds that of M, but faces with such
-//! metrics do not fit together in the plane. They are flattened conformally (`flat`: discrete
-//! conformal equivalence; Springborn, Schröder, Pinkall 2008) and laid out face by face (`layout`).
-//! The energy then integrates the resulting maps like those of any homotopy. Within a sheet without
-//! holes they fit together exactly.
+//! squared edge lengths change linearly, l²(t) = (1−t) l₀² + t l₁², so that a face with the linear
+//! map M from source to target has the metric (1−t) I + t MᵀM. Its distortion never exceeds that of
+//! M, but faces with such metrics do not fit together in the plane. They are flattened conformally
+//! (`flat`: discrete conformal equivalence; Springborn, Schröder, Pinkall 2008) and laid out face
+//! by face (`layout`). The energy then integrates the resulting local maps like those of any
+//! homotopy. Within a sheet without holes they fit together exactly.
 //!
 //! A sheet is a set of faces connected by shared edges. One rotation per sheet is left free. It is
-//! chosen such that, on average, the faces rotate as in the polar homotopy, seen equally from both
-//! designs. Whole turns are therefore preserved.
+//! chosen such that, on average, the faces rotate as in the polar homotopy; both designs count
+//! equally in the average. Whole turns are therefore preserved.
 //!
 //! Guaranteed: a sheet that is marked flat could be flattened at every tested t; swapping the
-//! designs gives the reversed maps. Not guaranteed: that a flattened triangle is distorted no more
-//! than its metric, because discrete conformal maps scale the corners of a face differently, the
-//! more so the larger the face; nor that the maps fit together around a hole.
+//! designs gives the reversed local maps. Not guaranteed: that a flattened triangle is distorted no
+//! more than its metric, because discrete conformal maps scale the corners of a face differently,
+//! the more so the larger the face; nor that the local maps fit together around a hole.
 //!
 //! The module `excess` finds faces that exceed the bound even so, and the frame solver corrects
 //! them.
@@ -40,7 +41,8 @@ use layout::BoundedFace;
 use sheet::FaceSheet;
 use std::sync::OnceLock;
 
-/// Number of equal steps of t at which flattening is tested (resource limit).
+/// Number of equal steps of t in [0, 1]; flattening is tested at the times between them (resource
+/// limit).
 const TRIED: u32 = 16;
 
 /// All sheets of a mesh. A sheet is a set of faces connected by shared edges.
@@ -53,14 +55,16 @@ pub(super) struct Bounded {
 #[derive(Debug)]
 struct BoundedSheet {
     sheet: FaceSheet,
-    /// The faces, in the order of the sheet.
+    /// The faces, in the same order as in `sheet`.
     faces: Vec<BoundedFace>,
     /// Whether the sheet could be flattened at all tested times.
     is_flat: bool,
-    /// Largest distortion (ratio of singular values) of a face between the designs; at least 1.
+    /// Largest distortion (ratio of singular values) of a face from source to target; at least 1.
+    /// It bounds the distortion during the motion.
     sheared: f64,
-    /// For each face, the matrix by which a requested change of its map must be multiplied for the
-    /// map to change as requested; computed on first use.
+    /// For each face, a matrix that compensates for the resistance of its neighbours: if a
+    /// requested change of the face's local map is multiplied by it, the map changes as requested.
+    /// Computed on first use.
     unyielding: Vec<OnceLock<DMat2>>,
 }
 
@@ -71,18 +75,18 @@ pub(super) struct Beyond {
     face: usize,
 }
 
-/// Memory for the maps of a frame, one entry per sheet.
+/// Working memory for the local maps at one t; `sheets` has one entry per sheet.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     sheets: Vec<OfSheet>,
-    /// Faces that exceed the bound, each with the change that its map needs.
+    /// Faces that exceed the distortion bound, each with the change that its local map needs.
     pub(super) beyond: Vec<(Beyond, DMat2)>,
 }
 
 #[derive(Debug)]
 struct OfSheet {
     flattening: Flattening,
-    /// For each face of the sheet, its map.
+    /// Local map of each face of the sheet.
     maps: Vec<DMat2>,
 }
 
@@ -126,7 +130,8 @@ impl Bounded {
         }
     }
 
-    /// Adds M(t) W g of each face to the forces on its corners.
+    /// Adds the force M(t) W g of each face to its corners. M(t) is the face's local map, W its
+    /// weight matrix, and g are the gradients of its hat functions.
     pub(super) fn add(&self, times: EvaluationTimes, memory: &mut Memory, forces: &mut [DVec2]) {
         for (whole, memory) in self.sheets.iter().zip(&mut memory.sheets) {
             let t = times.of_vertex(whole.faces[0].corners[0] as usize);
@@ -140,7 +145,8 @@ impl Bounded {
 
 impl Bounded {
     /// Finds the faces that exceed the distortion bound and stores them in `memory`. `deviation`
-    /// returns the deviation of a vertex from its straight path. Finds nothing unless 0 < t < 1.
+    /// returns the deviation of a vertex from the straight line between its positions in the
+    /// designs. Finds nothing unless 0 < t < 1.
     pub(super) fn find_beyond(
         &self,
         times: EvaluationTimes,
@@ -158,8 +164,8 @@ impl Bounded {
         }
     }
 
-    /// Returns the change that the map of a face needs to satisfy the distortion bound; `None` if
-    /// it satisfies it.
+    /// Returns the change that the local map of a face needs to satisfy the distortion bound;
+    /// `None` if the face satisfies the bound, or unless 0 < t < 1.
     pub(super) fn lacking(
         &self,
         Beyond { sheet, face }: Beyond,
@@ -180,9 +186,10 @@ impl Bounded {
         &self.sheets[sheet].faces[face]
     }
 
-    /// Returns the matrix by which a requested change must be multiplied for the map of a face to
-    /// change as requested; the identity if the face does not yield at all. `answer` returns the
-    /// change of the map when the identity is requested.
+    /// Returns the matrix by which a requested change of a face's local map must be multiplied for
+    /// the map to change as requested, despite the resistance of its neighbours. `answer` returns
+    /// the change of the map if the identity is requested. If this change has no finite inverse,
+    /// the result is the identity.
     pub(super) fn unyielding(
         &self,
         Beyond { sheet, face }: Beyond,
@@ -194,7 +201,7 @@ impl Bounded {
 }
 
 impl BoundedSheet {
-    /// Computes the maps of all faces at t.
+    /// Computes the local maps of all faces at t.
     fn maps(&self, t: f64, memory: &mut OfSheet) {
         let OfSheet { flattening, maps } = memory;
         if !self.is_flat || !(0.0..=1.0).contains(&t) {
@@ -203,7 +210,8 @@ impl BoundedSheet {
             }
             return;
         }
-        // The result is used even if it is not flat: flattening succeeded at times nearby.
+        // The result is used even if flattening does not converge at this t, because it converged
+        // at the tested times nearby.
         flattening.flatten(&self.sheet, t);
         layout::laid_out(&self.sheet, &self.faces, flattening.corners(), maps);
         layout::turn_along(&self.faces, t, maps);

@@ -1,8 +1,8 @@
-//! The time at which each connected part is evaluated in a frame.
+//! Times at which the connected parts are evaluated.
 
 use std::ops::Range;
 
-/// Evaluation times of all parts and vertices in one frame.
+/// Evaluation times of all parts and vertices at one transition time t.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum EvaluationTimes<'a> {
     /// One time for all parts.

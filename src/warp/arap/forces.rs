@@ -1,17 +1,17 @@
-//! Vectorised right-hand sides of a frame: Σ (M(t) − M_linear(t)) W g, in the notation of the
-//! parent module.
+//! Vectorised right-hand sides at one t: Σ (M(t) − M_linear(t)) W g, in the notation of the parent
+//! module.
 //!
 //! M_linear(t) = (1−t) M(0) + t M(1). The sum Σ M_linear(t) W g at a vertex is therefore
 //! interpolated between Σ M(0) W g and Σ M(1) W g, which are precomputed. These two sums are
-//! computed with the same operations as Σ M(t) W g of any other frame, so that the right-hand sides
+//! computed with the same operations as Σ M(t) W g for any other t, so that the right-hand sides
 //! are exactly zero at t = 0 and t = 1.
 //!
 //! Faces are stored and processed in blocks, so that the loop reads memory in order. Quantities
-//! that are cheap to compute are not stored, because frames of large meshes are limited by memory
-//! bandwidth. The loop is compiled for several vector widths, with identical results, and one is
-//! chosen at run time. [`crate::warp::homotopy::Homotopy::at`] is the scalar form of the same
-//! formulas; the tests compare the two. Local maps with bounded distortion depend on all faces and
-//! are computed by [`Bounded`].
+//! that are cheap to compute are not stored, because evaluation is limited by memory bandwidth for
+//! large meshes. The loop is compiled for several vector widths, with identical results, and one is
+//! chosen at run time. [`crate::warp::homotopy::Homotopy::at`] evaluates the same formulas for a
+//! single matrix; the tests compare the two. Local maps with bounded distortion depend on all faces
+//! and are computed by [`Bounded`].
 
 use super::assembly::{ElementMap, FaceMap, LocalMaps};
 use super::bounded::{Bounded, Memory};
@@ -47,7 +47,7 @@ pub(super) struct ForceAssembly {
     elements: Vec<ElementMap>,
     /// Length of each element at t = ½, relative to its linearly interpolated length.
     halfway_lengths: Vec<f64>,
-    /// Computation of the maps with bounded distortion, if the homotopy requires it.
+    /// Computation of the local maps with bounded distortion, if the homotopy requires it.
     bounded: Option<Arc<Bounded>>,
     /// For each vertex, its force Σ M(t) W g (in the notation of the module) at t = 0 and t = 1.
     ends: Vec<[DVec2; 2]>,
@@ -78,7 +78,8 @@ struct MapCoefficients {
 }
 
 impl MapCoefficients {
-    /// Polar homotopy R(tθ) ((1−t) I + t S).
+    /// Coefficients of the polar homotopy R(tθ) ((1−t) I + t S), with the rotation angle θ and the
+    /// stretch S.
     #[inline(always)]
     fn polar(t: f64, angle: f64) -> Self {
         let (sin, cos) = sin_cos(t * angle);
@@ -90,7 +91,8 @@ impl MapCoefficients {
         }
     }
 
-    /// Linear interpolation of both polar factors, ((1−t) I + t R(θ)) ((1−t) I + t S).
+    /// Coefficients of the linear interpolation of both polar factors,
+    /// ((1−t) I + t R(θ)) ((1−t) I + t S), with the rotation angle θ and the stretch S.
     #[inline(always)]
     fn linear_after_polar(t: f64, angle: f64) -> Self {
         let (sin, cos) = sin_cos(angle);
@@ -102,8 +104,9 @@ impl MapCoefficients {
         }
     }
 
-    /// Exponential homotopy R(tθ) exp(t log S), with exp(t log S) = λ₂ᵗ I + (λ₁ᵗ − λ₂ᵗ) u uᵀ for
-    /// the larger axis u.
+    /// Coefficients of the exponential homotopy R(tθ) exp(t log S), with the rotation angle θ and
+    /// the stretch S. Here exp(t log S) = λ₂ᵗ I + (λ₁ᵗ − λ₂ᵗ) u uᵀ, where λ₁ ≥ λ₂ are the
+    /// eigenvalues of S and u is the unit eigenvector of λ₁. The array holds log λ₁ and log λ₂.
     #[inline(always)]
     fn exponential(t: f64, angle: f64, [large, small]: [f64; 2]) -> Self {
         let (sin, cos) = sin_cos(t * angle);
@@ -130,7 +133,8 @@ impl MapCoefficients {
 }
 
 impl ForceAssembly {
-    /// Precomputes the blocks of faces and, for each vertex, the sums Σ M W g at t = 0 and t = 1.
+    /// Precomputes the blocks of faces and, for each vertex, the force Σ M(t) W g at t = 0 and
+    /// t = 1, in the notation of the module.
     pub(super) fn new(mesh: &CompatibleMesh, maps: &LocalMaps, homotopy: Homotopy) -> Self {
         let blocks = maps.faces.chunks(LANES);
         let logs = if homotopy == Homotopy::Exponential {
@@ -153,8 +157,8 @@ impl ForceAssembly {
             ends: Vec::new(),
         };
         let mut memory = stresses.memory();
-        // The forces at t = 0 and t = 1 are computed with the operations of any other frame, so
-        // that the right-hand sides of these two frames are exactly zero.
+        // The forces at t = 0 and t = 1 are computed with the same operations as for any other t,
+        // so that the right-hand sides are exactly zero at these two times.
         let [begin, end] = [0.0, 1.0].map(|t| {
             let mut forces = vec![DVec2::ZERO; mesh.source().len()];
             stresses.forces(EvaluationTimes::Uniform(t), &mut memory, &mut forces);
@@ -175,14 +179,14 @@ impl ForceAssembly {
         self.halfway_lengths[element] = ratio.clamp(*LENGTH_RATIOS.start(), *LENGTH_RATIOS.end());
     }
 
-    /// Allocates the working memory for the maps with bounded distortion; it is empty for other
-    /// homotopies.
+    /// Allocates the working memory for the local maps with bounded distortion; it is empty for
+    /// other homotopies.
     pub(super) fn memory(&self) -> Memory {
         let bounded = self.bounded.as_deref();
         bounded.map_or_else(Memory::default, Bounded::memory)
     }
 
-    /// Returns the computation of maps with bounded distortion, if the homotopy requires it.
+    /// Returns the computation of local maps with bounded distortion, if the homotopy requires it.
     pub(super) fn bounded(&self) -> Option<&Bounded> {
         self.bounded.as_deref()
     }
@@ -220,7 +224,7 @@ impl ForceAssembly {
             Some(bounded) => bounded.add(times, memory, forces),
             None => self.arch.dispatch(FacePass(self, times, &mut *forces)),
         }
-        // There are few elements compared to faces, so the scalar form is sufficient.
+        // There are few elements compared to faces, so this loop is not vectorised.
         if self.homotopy != Homotopy::Linear {
             for (element, &halfway) in self.elements.iter().zip(&self.halfway_lengths) {
                 let t = times.of_vertex(element.ends[0] as usize);
@@ -303,7 +307,8 @@ impl FaceBlock {
             angle,
             weighted: rows(faces, |face| face.weighted.to_cols_array()),
             middle: rows(faces, |face| {
-                // exp(t log S) is a linear combination of I and u uᵀ for the larger axis u.
+                // With the stretch S, exp(t log S) is a linear combination of I and u uᵀ, where u
+                // is the axis of the larger eigenvalue of S.
                 let axis = SymmetricEigen::of(face.map.stretch).axis;
                 match homotopy {
                     Homotopy::Exponential => DMat2::from_cols(axis * axis.x, axis * axis.y),

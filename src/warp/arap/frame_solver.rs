@@ -1,4 +1,5 @@
-//! Evaluation of a frame of the rigid interpolation: right-hand sides, solve and placement.
+//! Evaluation of the rigidity-preserving interpolation at one t: right-hand sides, solve and
+//! placement.
 
 use super::assembly::LocalMaps;
 use super::bounded::Memory;
@@ -18,15 +19,15 @@ use crate::warp::Placement;
 use crate::warp::homotopy::Homotopy;
 use std::sync::Arc;
 
-/// The rigid interpolation of a mesh with its factored matrix.
+/// The rigidity-preserving interpolation of a mesh with its factored matrix.
 #[derive(Debug)]
 pub(super) struct FactoredArap {
     pub mesh: CompatibleMesh,
     /// Factorisation, shared by interpolations that differ only in their guards.
     pub cholesky: Arc<Cholesky>,
-    /// Ridge that the factorisation needed, or `None`.
+    /// Ridge (a small increase of the diagonal) that the factorisation needed, or `None`.
     pub ridge: Option<Ridge>,
-    /// Precomputed data for the right-hand sides of a frame.
+    /// Precomputed data for the right-hand sides.
     pub forces: ForceAssembly,
     pub translations: PartTranslations,
     pub maps: LocalMaps,
@@ -36,18 +37,19 @@ pub(super) struct FactoredArap {
     pub guard: Option<Arc<Guard>>,
 }
 
-/// Evaluates an interpolation frame by frame; owns the working memory for one frame.
+/// Evaluates an interpolation at one t after another, in its own working memory.
 pub(super) struct FrameSolver {
     arap: Arc<FactoredArap>,
-    /// Holds the right-hand sides before the solve and the deviation U after it. All x come first,
-    /// then all y, each in elimination order.
+    /// Holds the right-hand sides before the solve. After it, holds the deviation of each vertex
+    /// from the straight line between its positions in the designs. All x come first, then all y,
+    /// each in elimination order.
     deviation: Vec<f64>,
     workspace: CholeskyWorkspace,
     memory: Memory,
     /// Working memory for a correction of `deviation`, in the same layout; empty unless the
     /// homotopy has bounded distortion.
     correction: Vec<f64>,
-    /// Translation of each connected part, recomputed for each frame.
+    /// Translation of each connected part, recomputed for each t.
     shifts: Vec<DVec2>,
 }
 
@@ -67,7 +69,7 @@ impl FrameSolver {
         }
     }
 
-    /// Moves the placement to the positions at the given times.
+    /// Moves the placement to the vertex positions at `times`, the time of each part.
     pub(super) fn place(&mut self, times: EvaluationTimes, placement: &mut Placement) {
         let Self {
             arap,
@@ -99,8 +101,9 @@ impl FrameSolver {
         let (dx, dy) = deviation.split_at(place.len());
         for (run, part) in arap.translations.runs() {
             let (shift, t) = (shifts[part], times.of_part(part));
-            // All maps of a transient part are the same scaling, so its deviation is only rounding
-            // and is ignored.
+            // The local maps of all faces of a transient part are the same scaling. Its exact
+            // deviation is therefore zero, and the computed deviation is only rounding and is
+            // ignored.
             let (t, weight) = match arap.translations.time_window(part) {
                 Some(window) => (window.fraction_done(t), 0.0),
                 None => (t, 1.0),

@@ -16,7 +16,8 @@ use std::ops::Range;
 pub(crate) struct Guard {
     /// Times in increasing order, within [0, 1].
     times: Vec<f64>,
-    /// Indices of the vertices that are displaced at any time, in increasing order.
+    /// Indices, in increasing order, of the vertices that are displaced at one or more of the
+    /// times.
     vertices: Vec<u32>,
     /// For each time, the displacement of each of these vertices. In single precision, as in the
     /// saved document, so that the proof covers the saved values.
@@ -31,9 +32,9 @@ pub(super) struct GuardMix {
 }
 
 impl Guard {
-    /// Creates a guard from the displacements of all vertices at each time. Returns `None` if the
-    /// times do not increase within [0, 1], nothing is displaced, the rows differ in length or are
-    /// not finite, or the first or the last row is not zero.
+    /// Creates a guard. Each row holds the displacements of all vertices at one time. Returns
+    /// `None` if the times do not increase within [0, 1], nothing is displaced, the rows differ in
+    /// length, a displacement is not finite, or the first or the last row is not zero.
     pub(crate) fn new(times: Vec<f64>, rows: &[Vec<DVec2>]) -> Option<Self> {
         let count = rows.first()?.len();
         if rows.iter().any(|row| row.len() != count) {
@@ -53,7 +54,8 @@ impl Guard {
         guard.is_sound(count).then_some(guard)
     }
 
-    /// Returns whether the guard is valid for a mesh with `vertex_count` vertices.
+    /// Returns whether the guard meets the conditions of [`Self::new`] and fits a mesh with
+    /// `vertex_count` vertices.
     pub(crate) fn is_sound(&self, vertex_count: usize) -> bool {
         let [first, .., last] = self.moved.as_slice() else {
             return false;
@@ -123,7 +125,8 @@ impl Guard {
         finer
     }
 
-    /// Returns the rows and weights at `t`; `None` if nothing is displaced then.
+    /// Returns the four times around `t` with the weights of their displacements; `None` outside
+    /// the time span of the guard.
     pub(super) fn at(&self, t: f64) -> Option<GuardMix> {
         let after = self.times.partition_point(|&time| time <= t);
         if after == 0 || after == self.times.len() {
@@ -139,8 +142,8 @@ impl Guard {
             s * s * (3.0 - 2.0 * s),
             0.0,
         ];
-        // The velocity at a time is that between its neighbours. At the first and the last time it
-        // is zero.
+        // The velocity at a time is the slope between the displacements at the two neighbouring
+        // times; it is zero at the first and at the last time.
         let mut pull = |from: usize, to: usize, by: f64| {
             if rows[to] - rows[from] == 2 {
                 let by = by * length / (self.times[rows[to]] - self.times[rows[from]]);
@@ -153,7 +156,8 @@ impl Guard {
         Some(GuardMix { rows, weights })
     }
 
-    /// Adds the displacements to the positions of the vertices with the indices `run`.
+    /// Adds the displacements selected by `mix` to `places`, the positions of the vertices with the
+    /// indices `run`.
     pub(super) fn add(&self, mix: &GuardMix, run: Range<usize>, places: &mut [DVec2]) {
         let from = self
             .vertices

@@ -6,17 +6,17 @@
 //!
 //! A(w) = R(Σ w_j θ_j) exp(Σ w_j log S_j) C.
 //!
-//! As for two designs, the energy has one matrix for all blends, with the face weights
-//! W = (1/N) Σ a_j (A_jᵀ A_j)⁻¹, where N is the number of designs and a_j the area of the face in
-//! design j. A blend takes one pass over the faces and one back-substitution. The method extends
-//! Alexa, Cohen-Or, Levin (2000) from two designs to many; the mean takes rotations and logarithms
-//! of stretches separately.
+//! As for two designs, the energy has one matrix for all blends, with the face weights W = (1/N) Σ
+//! a_j (A_jᵀ A_j)⁻¹, where N is the number of designs and a_j the area of the face in design j. A
+//! blend takes one pass over the faces and one back-substitution. The method extends Alexa,
+//! Cohen-Or, Levin (2000) from two designs to many; the mean takes rotations and logarithms of
+//! stretches separately.
 //!
-//! Guaranteed: a design's own corner gives that design bit for bit; two designs give the
-//! exponential homotopy with the symmetric energy as long as no face folds; with weights of at
-//! least 0, no face folds. The order of the designs matters only by rounding, as long as no face
-//! rotates by more than π between two designs and `retreat` is not needed. Not guaranteed: that no
-//! face folds with negative weights.
+//! Guaranteed: with weight 1, a design is reproduced bit for bit; two designs give the exponential
+//! homotopy with the symmetric energy as long as no face folds; with weights of at least 0, no face
+//! folds. The order of the designs matters only by rounding, as long as no face rotates by more
+//! than π between two designs and `retreat` is not needed. Not guaranteed: that no face folds with
+//! negative weights.
 //!
 //! - `mend`: unfolds faces by moving interior vertices
 //! - `retreat`: replaces a blend that stays folded by the nearest one that is not
@@ -70,16 +70,19 @@ struct ArapBlendData {
     family: CompatibleFamily,
     cholesky: Cholesky,
     faces: Vec<BlendFace>,
-    /// For each face, and within it each design: θ, and the entries xx, xy and yy of log S.
+    /// For each face, one entry per design j: θ_j, and the entries xx, xy and yy of log S_j, in the
+    /// notation of the module.
     ways: Vec<[f64; 4]>,
     bars: Vec<BlendBar>,
-    /// For each vertex, and within it each design: the force of its faces and bars in that design.
+    /// For each vertex, one entry per design: the force of the adjacent faces and bars in that
+    /// design.
     ends: Vec<DVec2>,
     parts: BlendParts,
     mender: Mender,
 }
 
-/// C W g of a face, where g are the gradients of the hat functions of its second and third corner.
+/// The matrix C W g of a face: the mean map C, the weight matrix W and, as columns of g, the
+/// gradients of the hat functions of the second and third corner.
 #[derive(Clone, Copy, Debug)]
 struct BlendFace(DMat2);
 
@@ -93,7 +96,8 @@ struct BlendBar {
 }
 
 impl ArapBlend {
-    /// Decomposes the local maps, assembles the matrix and factors it.
+    /// Builds the blend: computes the local maps of the faces in each design, assembles the matrix
+    /// of the energy and factors it.
     ///
     /// # Errors
     /// [`ArapError`] if angles wind around a hole, the matrix cannot be factored, or the job is
@@ -105,8 +109,8 @@ impl ArapBlend {
             homotopy: Homotopy::Exponential,
             ..ArapOptions::default()
         };
-        // The maps lead from the first design, the reference, to each design. Their angles are
-        // consistent across faces, and each part rotates the shorter way.
+        // The local maps lead from the first design, the reference, to each design. Their angles
+        // are consistent across shared edges, without extra turns.
         let mut maps = Vec::with_capacity(count);
         for design in 0..count {
             check_cancelled(progress)?;
@@ -153,7 +157,7 @@ impl ArapBlend {
         Ok(Self(Arc::new(inner)))
     }
 
-    /// Returns the connectivity and the designs.
+    /// Returns the mesh: its faces and bars, and its vertex positions in each design.
     #[must_use]
     pub fn family(&self) -> &CompatibleFamily {
         &self.0.family
@@ -185,9 +189,9 @@ pub struct BlendPlacer {
     /// Right-hand sides, then deviations: all x, all y, in elimination order.
     deviation: Vec<f64>,
     workspace: CholeskyWorkspace,
-    /// Shift of each connected part.
+    /// Translation that is added to the deviations of each connected part.
     shifts: Vec<DVec2>,
-    /// Weights of the blend that is being tried.
+    /// Weights of the blends that are tried when a folded blend is moved towards a design.
     towards: Vec<f64>,
 }
 
@@ -238,7 +242,8 @@ impl BlendPlacer {
         for (v, place) in self.places.iter_mut().enumerate() {
             let designs = blend.family.embeddings().iter().zip(weights);
             let straight: DVec2 = designs.map(|(places, &w)| places[v] * w).sum();
-            // The bracket is exactly 0 in a design, so that the sum is exact there.
+            // The term in parentheses is exactly 0 if the blend is one of the designs, so that the
+            // design is reproduced exactly.
             *place = straight + (deviation(v) + self.shifts[blend.parts.of_vertex[v] as usize]);
         }
         blend.mender.mend(blend.family.faces(), &mut self.places)
@@ -252,7 +257,9 @@ impl BlendPlacer {
 }
 
 impl ArapBlendData {
-    /// Adds Σ A(w) W g, the forces of faces and bars, to each vertex.
+    /// Adds the force of each face and bar to its vertices, for the blend with the given weights.
+    /// The force of a face is A(w) W g, in the notation of the module, with the gradients g of its
+    /// hat functions.
     fn add_pulls(&self, weights: &[f64], pulls: &mut [DVec2]) {
         let ways = self.ways.chunks_exact(weights.len());
         for ((face, ways), BlendFace(carried)) in
@@ -281,8 +288,8 @@ impl ArapBlendData {
         }
     }
 
-    /// Returns the forces in each design. They are computed by the same operations as in a blend,
-    /// so that their difference there is exactly zero.
+    /// Returns the forces on the vertices in each design. They are computed by the same operations
+    /// as those of a blend, so that both are exactly equal if the blend is a design.
     fn pulls_of_designs(&self) -> Vec<DVec2> {
         let (count, vertices) = (self.family.count(), self.parts.of_vertex.len());
         let mut ends = vec![DVec2::ZERO; count * vertices];
@@ -316,11 +323,13 @@ fn exponential(xx: f64, xy: f64, yy: f64) -> DMat2 {
     DMat2::from_cols(DVec2::new(cosh + d, o), DVec2::new(o, cosh - d)) * mean.exp()
 }
 
-/// Returns the mean C of the maps and, for each map, the angle and the log stretch of A_j C⁻¹.
+/// Returns the mean C of the linear maps A_j given by `maps`. For each A_j, also returns the
+/// rotation angle and the entries xx, xy and yy of the logarithm of the stretch of A_j C⁻¹.
 fn mean_of(maps: &[PolarDecomposition]) -> (DMat2, Vec<[f64; 4]>) {
     /// Maximum number of iterations (resource limit: valid maps converge in about ten).
     const ROUNDS: usize = 100;
-    /// Largest mean of angles and log stretches at convergence (tolerance: rounding).
+    /// Convergence threshold for the means of the angles and of the log stretches, which are zero
+    /// for the exact C (tolerance: rounding).
     const LEFT: f64 = 1e-15;
     let count = maps.len() as f64;
     let each: Vec<DMat2> = maps.iter().map(PolarDecomposition::matrix).collect();
@@ -348,7 +357,8 @@ fn mean_of(maps: &[PolarDecomposition]) -> (DMat2, Vec<[f64; 4]>) {
     (mean, own)
 }
 
-/// Returns the face weight W: the mean over the designs of the face's area times (A_jᵀ A_j)⁻¹.
+/// Returns the weight matrix W of a face: the mean, over the designs j, of the face's area times
+/// (A_jᵀ A_j)⁻¹, where A_j is `maps[j]`.
 fn weight(family: &CompatibleFamily, face: usize, maps: &[PolarDecomposition]) -> DMat2 {
     let corners = family.faces()[face];
     let mut sum = DMat2::ZERO;
@@ -413,8 +423,9 @@ impl Assembly {
         self.matrix.add(a, b, -k);
     }
 
-    /// Makes the matrix regular by grounding one vertex of each connected part. This changes no
-    /// result, because the forces on a part sum to zero.
+    /// Makes the matrix regular by increasing the diagonal entry of one vertex of each connected
+    /// part. This does not change the blend, because the forces on a part sum to zero and the
+    /// part's translation is computed separately.
     fn grounded(mut self, family: &CompatibleFamily) -> SymmetricMatrix {
         let components = family.pair(0, 0).components();
         let mut grounded = vec![false; self.diagonal.len()];

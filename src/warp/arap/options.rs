@@ -50,7 +50,7 @@ impl FaceWeights {
     }
 }
 
-/// Path of the whole design, which the energy leaves undetermined.
+/// Motion of the design as a whole, which the energy does not determine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -95,10 +95,11 @@ pub struct ArapOptions {
     /// Otherwise it is the one-sided energy of "Design-Space Representation through Blended
     /// Transitions", §3.2.
     pub symmetric: bool,
-    /// Additional whole turns: one number for all parts, or one for each edge-connected component,
-    /// ordered by their first faces.
+    /// Whole turns that are added to the rotation: one number for all edge-connected components of
+    /// the faces, or one for each component, ordered by their first faces. Missing numbers count as
+    /// 0.
     pub extra_turns: Vec<i32>,
-    /// Path of the whole design.
+    /// Motion of the design as a whole, which the energy does not determine.
     pub path: ArapPath,
     /// Number of times that every face is split into four before solving.
     pub subdivisions: u32,

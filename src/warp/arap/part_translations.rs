@@ -12,7 +12,7 @@ use crate::geometry::{DMat2, DVec2};
 use crate::warp::part_path::{PartPath, centroid};
 use std::ops::Range;
 
-/// The connected parts with their paths.
+/// The connected parts with the paths of their centroids.
 #[derive(Clone, Debug)]
 pub(super) struct PartTranslations {
     parts: Vec<PartPath>,
@@ -25,9 +25,10 @@ pub(super) struct PartTranslations {
     centroid: [DVec2; 2],
     /// Runs of consecutive vertices that belong to the same part.
     vertices: Vec<PartRun>,
-    /// Runs of consecutive unknowns, in elimination order, that belong to the same part.
+    /// Runs of consecutive vertices in elimination order, the order of the unknowns, that belong to
+    /// the same part.
     unknowns: Vec<PartRun>,
-    /// For each unknown, in elimination order: its share of the mass of its part.
+    /// For each vertex, in elimination order: its mass as a fraction of the mass of its part.
     shares: Vec<f64>,
     /// Rotation of the design in radians.
     whole_angle: f64,
@@ -39,9 +40,9 @@ pub(super) struct PartTranslations {
     rotates_about_pole: bool,
 }
 
-/// Sine of half the rotation below which the design's centroid moves on a straight line instead of
-/// an arc about the pole (tolerance: the pole does not exist or is more than a hundred times as far
-/// away as the centroid moves).
+/// Sine of half the design's rotation below which there is no rotation about the pole: the design's
+/// centroid moves on a straight line instead of an arc (tolerance: the pole does not exist or is
+/// more than a hundred times as far away as the centroid moves).
 const NO_POLE: f64 = 5e-3;
 
 /// Range of consecutive items that belong to one part.
@@ -150,17 +151,18 @@ impl PartTranslations {
         &self.time_windows
     }
 
-    /// Returns the position at t of a part that moves with the design.
+    /// Returns the position at t of a point that moves with the design and, in addition, relative
+    /// to it.
     ///
-    /// `ends` are the part's positions in source and target; `share` is the completed fraction of
-    /// its own motion.
+    /// `ends` holds the positions of the point in source and target. `share`, from 0 to 1, is the
+    /// completed fraction of its motion relative to the design.
     pub(super) fn carried_position(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
         let path = PartPath::of(ends, self.centroid, self.whole_angle);
         self.centre(t) + path.offset_at_fraction(t, share, self.whole_angle)
     }
 
-    /// Returns the positions in source and target of a point that moves with the design and is at
-    /// `place` at t.
+    /// Returns the positions in source and target of a point that moves rigidly with the design and
+    /// is at `place` at t.
     pub(super) fn uncarried_ends(&self, place: DVec2, t: f64) -> [DVec2; 2] {
         let [from, to] = self.centroid;
         let offset = place - self.centre(t);

@@ -16,8 +16,8 @@ use crate::warp::homotopy::Homotopy;
 const STIFFNESS: f64 = 1e4;
 
 /// Maximum sine of the turning angle at a vertex inside a straight side. Also the maximum
-/// difference between the two designs in the ratio in which the vertex divides the segment between
-/// its neighbours (tolerance: coordinates in files have about seven digits).
+/// difference between the two designs in the ratio in which the vertex divides the line segment
+/// between its neighbours (tolerance: coordinates in files have about seven digits).
 const STRAIGHT: f64 = 1e-6;
 
 /// Whether a mesh has the constraints of drawn outlines.
@@ -112,8 +112,8 @@ fn vertices_on_sides(mesh: &CompatibleMesh) -> Vec<SideVertex> {
     side_vertices
 }
 
-/// Returns whether the middle one of three vertices lies on the straight segment between the other
-/// two, in both designs, and divides that segment in the same ratio.
+/// Returns whether the middle one of three vertices lies on the line segment between the other two,
+/// in both designs, and divides that line segment in the same ratio.
 fn is_straight(mesh: &CompatibleMesh, vertices: [u32; 3]) -> bool {
     let share = |points: &[DVec2]| {
         let [a, p, b] = vertices.map(|v| points[v as usize]);
@@ -138,7 +138,7 @@ mod tests {
     use crate::work::progress::Silent;
 
     /// Returns a mesh from a straight bar to a bent one; the upper side stays straight and has five
-    /// segments.
+    /// edges.
     fn bent() -> CompatibleMesh {
         let upper = |from: DVec2, to: DVec2| (0..5).map(move |k| from.lerp(to, f64::from(k) / 5.0));
         let ring = |middle: DVec2, left: DVec2, right: DVec2| -> Vec<DVec2> {

@@ -1,20 +1,21 @@
-//! Corrects, in each frame, the faces that exceed the distortion bound of the worse end.
+//! Corrects, at each t, the faces that exceed the distortion bound: the largest distortion of a
+//! face of the same sheet from source to target.
 //!
-//! If many faces exceed the bound, all are corrected at once, each by the change that its own map
-//! needs. A needle-shaped face hardly yields to that, because its neighbours resist. If only a few
-//! faces exceed the bound, they are therefore corrected one after the other, and each change is
-//! enlarged by the resistance of its face. All corrections are overrelaxed, because each correction
-//! partly undoes the previous ones.
+//! If many faces exceed the bound, all are corrected at once, each by the change that its own local
+//! map needs. A needle-shaped face hardly yields to that, because its neighbours resist. If only a
+//! few faces exceed the bound, they are therefore corrected one after the other, and each change is
+//! enlarged by the resistance of its face. All corrections are overrelaxed (enlarged by a constant
+//! factor), because each correction partly undoes the previous ones.
 //!
-//! Guaranteed: frames in which all faces satisfy the bound are unchanged. Not guaranteed: that all
-//! faces satisfy it in the end.
+//! Guaranteed: if all faces satisfy the bound, nothing is changed. Not guaranteed: that all faces
+//! satisfy it in the end.
 
 use super::bounded::{Bounded, Memory};
 use super::evaluation_times::EvaluationTimes;
 use crate::geometry::{DMat2, DVec2};
 use crate::numerics::{Cholesky, CholeskyWorkspace};
 
-/// Maximum number of corrections in a frame (resource limit; a round that has begun is completed).
+/// Maximum number of corrections at one t (resource limit; a round that has begun is completed).
 const MOST: usize = 128;
 
 /// Overrelaxation factor; the iteration converges for factors between 0 and 2 (Young 1954,
@@ -24,12 +25,13 @@ const FARTHER: f64 = 1.8;
 /// Maximum number of faces that are corrected one after the other (heuristic).
 const FEW: usize = 8;
 
-/// Solves for the deviations caused by forces, in the memory of a frame.
+/// Solver for the deviations of the vertices that given forces cause. It borrows its memory from
+/// the evaluation of the warp.
 pub(super) struct DeviationSolver<'a> {
     cholesky: &'a Cholesky,
     /// Force on each vertex.
     forces: &'a mut [DVec2],
-    /// Solution: all x, then all y, in elimination order.
+    /// Resulting deviations: all x, then all y, in elimination order.
     solved: &'a mut [f64],
     workspace: &'a mut CholeskyWorkspace,
 }

@@ -305,8 +305,8 @@ fn a_spiral_uncoils_by_three_turns_without_a_fold() {
 
 #[test]
 fn a_ring_wound_twice_around_its_hole_is_rejected() {
-    // The target of this annulus winds twice around the hole. All faces are positive, but there
-    // are no consistent angles.
+    // The target of this annulus winds twice around the hole. All faces are positively oriented,
+    // but no consistent angles exist.
     let n = 24_u32;
     let ring = |speed: f64| -> Vec<DVec2> {
         (0..n)
@@ -430,7 +430,7 @@ fn the_centroid_of_fixed_masses_moves_on_a_straight_line() {
 
 #[test]
 fn vectorised_homotopies_equal_the_scalar_ones() {
-    // A single face has J = M(t) exactly, for any weights.
+    // A single face follows its local map M(t) exactly, for any weights.
     let source = vec![DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.3, 1.0)];
     let target = vec![
         DVec2::new(1.0, 1.0),

@@ -3,8 +3,8 @@
 //! A part that exists in only one design is a tiny seed shape in the other. It moves with the whole
 //! design from the first frame to the last, like every other part, but changes its size, and its
 //! position relative to the design, only within its time window. A part that appears can thus wait
-//! until its place is free, and a part that disappears can make room in time. At times outside [0,
-//! 1] a part keeps the size that it has at the nearer end.
+//! until its place is free, and a part that disappears can make room in time. For t < 0 a part
+//! keeps its size at t = 0, and for t > 1 its size at t = 1.
 
 use crate::geometry::Side;
 use serde::{Deserialize, Serialize};
@@ -16,10 +16,10 @@ const GROWTH_CURVATURE: f64 = 0.75;
 /// Time window within [0, 1] in which a transient part changes its size and its position relative
 /// to the design.
 ///
-/// Before the window the part has its size in the source, after the window its size in the target.
-/// A part that appears grows fast at first and slowly at last; a part that disappears shrinks in
+/// Before the time window the part has its size in the source, after it the size in the target. A
+/// part that appears grows fast at first and slowly at last; a part that disappears shrinks in
 /// reverse. The area thus changes almost linearly. If one part disappears while an equal one
-/// appears, both together have 0.95 times the area of one halfway through the window. With a
+/// appears, both together have 0.95 times the area of one halfway through the time window. With a
 /// diameter that changes linearly, they would have only 0.5 times that area.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TimeWindow {
@@ -32,7 +32,7 @@ pub struct TimeWindow {
 }
 
 impl TimeWindow {
-    /// Returns the window [0, 1] for a part that exists only in the given design.
+    /// Returns the time window [0, 1] for a part that exists only in the given design.
     #[must_use]
     pub fn whole(side: Side) -> Self {
         Self {
@@ -42,7 +42,7 @@ impl TimeWindow {
         }
     }
 
-    /// Returns whether the window is a nonempty interval within [0, 1].
+    /// Returns whether the time window is a nonempty interval within [0, 1].
     pub(crate) fn is_valid(&self) -> bool {
         0.0 <= self.from && self.from < self.to && self.to <= 1.0
     }
@@ -50,8 +50,8 @@ impl TimeWindow {
     /// Returns the diameter of the part at `t`, relative to its diameter in the design in which it
     /// exists.
     ///
-    /// The result is exactly 0 or 1 outside the window, so that extrapolation cannot turn the part
-    /// inside out.
+    /// The result is exactly 0 or 1 outside the time window, so that extrapolation cannot turn the
+    /// part inside out.
     ///
     /// ```
     /// use morphospace::{geometry::Side, warp::TimeWindow};
@@ -71,7 +71,8 @@ impl TimeWindow {
         grown * (1.0 + GROWTH_CURVATURE * (1.0 - grown))
     }
 
-    /// Returns the completed fraction of the change at `t`; exactly 0 or 1 outside the window.
+    /// Returns the completed fraction of the change of size at `t`: exactly 0 before the time
+    /// window and exactly 1 after it.
     #[must_use]
     pub fn fraction_done(self, t: f64) -> f64 {
         match self.side {
@@ -80,9 +81,9 @@ impl TimeWindow {
         }
     }
 
-    /// Returns the interval of frame times in which the part is visible.
+    /// Returns the interval of transition times in which the part is visible.
     ///
-    /// `when` maps a time on the part's clock to the frame time.
+    /// `when` maps a time on the part's own clock to the transition time.
     pub(crate) fn visible_interval(self, when: impl Fn(f64) -> f64) -> [f64; 2] {
         match self.side {
             Side::Source => [0.0, when(self.to)],
@@ -96,7 +97,7 @@ impl TimeWindow {
         self.size(t) == 0.0
     }
 
-    /// Returns the window for the reversed motion.
+    /// Returns the time window for the reversed motion.
     #[must_use]
     pub fn backwards(self) -> Self {
         Self {

@@ -1,5 +1,5 @@
-//! A map of the plane built from displacement layers, coarse to fine, that moves the features from
-//! their positions in the frame to those in a design.
+//! A mapping of the plane, built from displacement layers, coarse to fine, that moves the features
+//! from their positions in the frame to those in a design.
 
 use super::layer::{FeaturePull, SplineLayer};
 use super::options::LatticeOptions;
@@ -67,10 +67,10 @@ impl LatticeDomain {
     }
 }
 
-/// Map of the plane: the composition or the sum of displacement layers.
+/// Mapping of the plane: the composition or the sum of displacement layers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LayerStack {
-    /// Allocated layers, reused from frame to frame.
+    /// Allocated layers, reused from one t to the next.
     layers: Vec<SplineLayer>,
     /// Number of leading entries of `layers` that are in use.
     height: usize,
@@ -79,7 +79,7 @@ pub(super) struct LayerStack {
     features: Vec<LatticeFeature>,
 }
 
-/// A feature with its current and its final position.
+/// A feature, with its position in the frame, after the layers built so far, and in the design.
 #[derive(Clone, Copy, Debug)]
 struct LatticeFeature {
     weight: f64,
@@ -155,7 +155,7 @@ impl LayerStack {
 
     /// Fits one more layer to the remaining displacements.
     fn add_layer(&mut self, ground: &LatticeDomain, spacing: f64, bound: f64) {
-        // Layers are reused from frame to frame to avoid allocation.
+        // Layers are reused from one t to the next to avoid allocation.
         if self.layers.len() == self.height {
             self.layers.push(SplineLayer::default());
         }
@@ -183,8 +183,8 @@ impl LayerStack {
         distances.fold(0.0, f64::max)
     }
 
-    /// Returns, for each feature, the distance of its image under the map from its position in the
-    /// design.
+    /// Returns, for each feature, the distance between its image under the mapping and its position
+    /// in the design.
     pub(super) fn residuals(&self) -> impl Iterator<Item = f64> + '_ {
         self.features.iter().map(|f| f.now.distance(f.expected))
     }
@@ -209,8 +209,8 @@ mod tests {
     use crate::geometry::DMat2;
 
     impl LayerStack {
-        /// Returns two Jacobian determinants at a point: that of the map, and the smallest one of a
-        /// single layer. The second is infinite if the layers are summed.
+        /// Returns two Jacobian determinants at a point: that of the mapping, and the smallest one
+        /// of a single layer. The second is infinite if the layers are summed.
         pub(in crate::warp::lattice) fn determinants(&self, place: DVec2) -> [f64; 2] {
             let mut at = place;
             let mut total = DMat2::IDENTITY;

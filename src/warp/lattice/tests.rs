@@ -1,5 +1,5 @@
-//! Tests of the lattice warp: interpolation, exact ends, absence of folds, features outside the
-//! frame, exchanged designs, invalid input.
+//! Tests of the lattice warp: interpolation, exactness at t = 0 and t = 1, absence of folds,
+//! features outside the frame, exchanged designs, invalid input.
 
 use super::*;
 use crate::warp::FeatureError;

@@ -14,11 +14,11 @@ use crate::geometry::DVec2;
 use crate::warp::elementary::{exp, ln};
 use pulp::{Arch, Simd, WithSimd, bytemuck};
 
-/// Number of vectors that share one division (resource limit: four vectors would exceed the
+/// Number of SIMD vectors that share one division (resource limit: four vectors would exceed the
 /// registers).
 const GROUP: usize = 2;
 
-/// Vectors that are processed together and share a division.
+/// SIMD vectors that are processed together and share a division.
 type VectorGroup<S> = [<S as Simd>::f64s; GROUP];
 
 /// Number of points in a block (resource limit: the data of a block fit into the first-level
@@ -106,7 +106,7 @@ impl WeightFalloff for InversePowerFalloff {
     }
 }
 
-/// All lines of a frame with the constants of their weights.
+/// All lines at one t, with the constants of their weights.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScaledLines<'a> {
     pub(super) lines: &'a [FieldLine],
@@ -235,7 +235,7 @@ impl PlaceBlock {
     }
 }
 
-/// Adds the contributions of all lines to the sums of each cell.
+/// Adds the contributions of all lines to the sums of each group of points.
 ///
 /// Square roots have a long latency. The distances to the next line are therefore computed before
 /// the current line is added, so that the processor can overlap the two.
@@ -355,13 +355,13 @@ fn scale_group<S: Simd>(
     group
 }
 
-/// Views a row as groups of vectors.
+/// Views one number per point as groups of SIMD vectors.
 #[inline(always)]
 fn groups<S: Simd>(row: &PlaceLanes) -> &[VectorGroup<S>] {
     S::as_simd_f64s(row).0.as_chunks().0
 }
 
-/// Views a row as groups of vectors, mutably.
+/// Views one number per point as groups of SIMD vectors, mutably.
 #[inline(always)]
 fn groups_mut<S: Simd>(row: &mut PlaceLanes) -> &mut [VectorGroup<S>] {
     S::as_mut_simd_f64s(row).0.as_chunks_mut().0

@@ -37,9 +37,11 @@ pub(super) type AffineFunction = [f64; 3];
 /// A line in scaled coordinates as the kernel evaluates it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FieldLine {
-    /// Signed distance of the point from the line's midpoint, measured along the line.
+    /// Signed distance of a point from the line's midpoint, measured along the line, as a function
+    /// of the point.
     pub(super) along: AffineFunction,
-    /// Signed distance of the point from the line; positive on the left.
+    /// Signed distance of a point from the line, as a function of the point; positive on the left
+    /// of the line.
     pub(super) across: AffineFunction,
     /// Half the length of the line in the frame.
     pub(super) half: f64,
@@ -64,7 +66,7 @@ impl LineFeature {
     }
 }
 
-/// A segment as its midpoint, the vector between its ends, and its length.
+/// A line segment, given by its midpoint, the vector between its ends, and its length.
 #[derive(Clone, Copy)]
 struct MidpointLine {
     middle: DVec2,

@@ -12,7 +12,7 @@ use super::options::LineInterpolation;
 use crate::geometry::DVec2;
 use std::f64::consts::TAU;
 
-/// An angle near ±π counts as π if its sine is at most this value, apart from the sign (tolerance:
+/// An angle near ±π counts as π if the absolute value of its sine is at most this value (tolerance:
 /// antiparallel lines transformed by a similarity are off by about 1e-15).
 const HALF_TURN_TOLERANCE: f64 = 1e-9;
 

@@ -1,9 +1,9 @@
 //! Options of the line warp and their validation.
 //!
 //! The weights of the lines depend on the constants a, b and p of Beier, Neely (1992), §3.2. With a
-//! near 0, points on a line follow the line exactly; a larger a gives a smoother map. With a large
-//! b, each point follows its nearest line. With p = 0 all lines weigh the same, with p = 1 long
-//! lines outweigh short ones. The paper recommends b in [0.5, 2] and p in [0, 1].
+//! near 0, points on a line follow the line exactly; a larger a gives a smoother mapping. With a
+//! large b, each point follows its nearest line. With p = 0 all lines weigh the same, with p = 1
+//! long lines outweigh short ones. The paper recommends b in [0.5, 2] and p in [0, 1].
 
 use crate::settings::named;
 use crate::warp::features::FeatureError;

@@ -49,8 +49,8 @@ fn looked_up(lines: &LineWarp, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     actual
 }
 
-/// Map from the frame into one design, given line pairs `[in_frame, in_design]` and the constant a
-/// in plane units.
+/// Mapping from the frame into one design, given line pairs `[in_frame, in_design]` and the
+/// constant a in plane units.
 struct OneWayMap(LinesAtTime);
 
 impl OneWayMap {
@@ -215,7 +215,7 @@ fn a_half_turn_has_a_fixed_direction_and_keeps_its_length() {
 
 #[test]
 fn a_line_that_shrinks_to_a_point_causes_no_jump() -> LinesTestResult {
-    // Halfway, the ends of the rotating line meet; two other lines still determine the map.
+    // Halfway, the ends of the rotating line meet; two other lines still determine the mapping.
     let turning = line([-DVec2::X, DVec2::X, DVec2::X, -DVec2::X]);
     let other = |y: f64| {
         let [a, b] = [DVec2::new(-2.0, y), DVec2::new(2.0, y)];

@@ -25,7 +25,7 @@ pub(super) struct IntrinsicPaths {
 }
 
 impl IntrinsicPaths {
-    /// Prepares parts, each an outer ring followed by its holes.
+    /// Computes the intrinsic paths of `parts`; each part is an outer ring followed by its holes.
     pub(super) fn new(parts: &[Vec<RingPair>]) -> Self {
         let outer: Vec<&RingPair> = parts.iter().filter_map(|rings| rings.first()).collect();
         let rings: Vec<IntrinsicRing> = outer

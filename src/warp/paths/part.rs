@@ -108,9 +108,10 @@ impl BridgedHole {
     }
 }
 
-/// Returns the centroids of a ring in source and target, with fixed vertex masses.
+/// Returns the centroids of a ring in source and target.
 ///
-/// An area centroid would be 0/0 where a ring collapses in between.
+/// The masses of the vertices do not depend on t, because an area centroid would be 0/0 where a
+/// ring collapses in between.
 pub(super) fn centres(pair: &RingPair, ring: &IntrinsicRing) -> [DVec2; 2] {
     [&pair.source, &pair.target].map(|points| {
         let origin = points[0];

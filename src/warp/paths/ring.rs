@@ -1,4 +1,4 @@
-//! Intrinsic interpolation of one ring.
+//! Intrinsic interpolation of one ring (closed polygon).
 //!
 //! Sederberg, Gao, Wang, Mu, "2-D shape blending: an intrinsic solution to the vertex path problem"
 //! (1993), §3 and §4: the lengths and directions of the edges are interpolated. The resulting
@@ -7,8 +7,8 @@
 //! the edge in the two designs. The changes follow from two Lagrange multipliers, the solution of a
 //! 2×2 system.
 //!
-//! Guaranteed: a closed, finite ring at every finite t. Similar rings stay similar. Exchanging
-//! the rings mirrors the motion in time. Not guaranteed: that the ring does not cross itself.
+//! Guaranteed: a closed, finite ring at every finite t. Similar rings stay similar. Exchanging the
+//! rings mirrors the motion in time. Not guaranteed: that the ring does not cross itself.
 
 use super::turning::{self, edges};
 use crate::geometry::{DMat2, DVec2};
@@ -155,7 +155,8 @@ impl IntrinsicEdge {
     }
 }
 
-/// Returns the Lagrange multipliers that close a gap, as far as the edge directions permit.
+/// Returns the Lagrange multipliers that close the gap of a ring, as far as the edge directions
+/// permit. The array holds the entries of the symmetric 2×2 matrix of the system.
 fn multipliers([xx, xy, yy]: [f64; 3], gap: DVec2) -> DVec2 {
     let ridge = RIDGE * (xx + yy);
     if ridge <= 0.0 {

@@ -104,7 +104,7 @@ fn the_ends_are_the_designs_bit_for_bit() {
         };
         assert_eq!(bits(&positions(&paths, 0.0)), bits(&parts[0][0].source));
         assert_eq!(bits(&positions(&paths, 1.0)), bits(&parts[0][0].target));
-        // The motion is continuous at both ends.
+        // The motion is continuous at t = 0 and t = 1.
         for (t, end) in [
             (1e-9, &parts[0][0].source),
             (1.0 - 1e-9, &parts[0][0].target),

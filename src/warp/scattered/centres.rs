@@ -4,11 +4,11 @@
 //! normalised, and the best-fit similarity is subtracted from the displacements.
 //!
 //! Slope limit: two features at distance d whose displacements differ by D require a slope of D / d
-//! between them. Up to a limit K nothing is changed. Above it, the difference is multiplied by
-//! (K d / D)², so that the slope returns to zero as the features meet. Without this, the slope
-//! would grow without bound and tear the plane. In addition, the linear system couples the
-//! coefficients of such a pair, the more strongly the closer the two are; otherwise the map would
-//! jump at the moment they merge.
+//! between them. Up to a limit K nothing is changed. Above it, the difference is multiplied by (K d
+//! / D)², so that the slope returns to zero as the features meet. Without this, the slope would
+//! grow without bound and tear the plane. In addition, the linear system penalises different
+//! coefficients of such a pair, the more strongly the closer the two features are; otherwise the
+//! mapping would jump at the moment they merge.
 
 use super::kernel::{KernelCentres, RadialSum};
 use crate::geometry::DVec2;
@@ -29,13 +29,14 @@ pub(super) struct ClosePair {
     /// Indices of the two centres, in increasing order.
     pub(super) pair: [usize; 2],
     /// Factor below 1 by which the difference between the two displacements is multiplied: the
-    /// square of (maximum slope / required slope), in the design in which this is smaller.
+    /// square of (maximum slope / required slope), in the design in which this square is smaller.
     pub(super) shrink_factor: f64,
-    /// Coupling μ of the coefficients of the two centres; 0 until the linear system is assembled.
+    /// Weight μ of the term that pulls the coefficients of the two centres together; 0 until the
+    /// linear system is assembled.
     pub(super) coupling: f64,
 }
 
-/// Centres and displacements of one frame, with reusable memory.
+/// Centres and displacements at one t, with reusable memory.
 #[derive(Debug, Default)]
 pub(super) struct CentreData {
     /// Positions of the centres; in plane coordinates until [`Self::normalise`] converts them.
@@ -92,8 +93,8 @@ impl CentreData {
         }
     }
 
-    /// Shrinks the difference between the displacements of two centres where its slope exceeds
-    /// [`MAX_SLOPE`], and records these pairs.
+    /// For each pair of centres whose displacements require a slope above [`MAX_SLOPE`], shrinks
+    /// the difference between the displacements and records the pair.
     pub(super) fn limit_slopes(&mut self) {
         let Self {
             positions: at,

@@ -37,8 +37,8 @@ pub struct ScatteredOptions {
     pub width: f64,
     /// Exponent μ of the multiquadric in [−1, 1) without 0; Ruprecht and Müller use ½.
     pub exponent: f64,
-    /// Smoothing parameter λ ≥ 0, which trades accuracy at the features for a smoother map. It is
-    /// relative to the frame's diameter: for thin plates, λ times the squared diameter equals
+    /// Smoothing parameter λ ≥ 0, which trades accuracy at the features for a smoother mapping. It
+    /// is relative to the frame's diameter: for thin plates, λ times the squared diameter equals
     /// SciPy's `smoothing`. 0.001 has a slight and 0.1 a strong effect.
     pub smoothing: f64,
 }

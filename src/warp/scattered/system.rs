@@ -30,26 +30,27 @@ use crate::geometry::DVec2;
 use crate::numerics::DenseLu;
 use pulp::Arch;
 
-/// Smallest value of the regularisation E (tolerance: affine maps are reproduced to 1e-12 by
-/// centres whose spread in one direction is a tenth of that in the other).
+/// Smallest value of E, the regularisation of the affine slopes (tolerance: affine maps are
+/// reproduced to 1e-12 by centres whose spread in one direction is a tenth of that in the other).
 const MIN_SLACK: f64 = 1e-13;
 
-/// Largest value added to the regularisation E.
+/// Largest value added to E, the regularisation of the affine slopes.
 ///
 /// Derived: for centres within a unit circle the system of r² log r stays positive definite
-/// (Williams and Fitzgibbon, "Gaussian process implicit surfaces", 2006, eq. 9 with R = 2:
-/// E ≤ 1 / (1 + 2 log 2)).
+/// (Williams and Fitzgibbon, "Gaussian process implicit surfaces", 2006, eq. 9 with R = 2: E ≤ 1 /
+/// (1 + 2 log 2)).
 const MAX_SLACK: f64 = 0.4;
 
-/// Numbers of which one is added to the diagonal of ±Φ: the smallest with which the system can be
-/// solved (tolerance: from the size of rounding errors to the largest acceptable error).
+/// Numbers of which one is added to the diagonal of ±Φ, the matrix of the radial functions at the
+/// centres: the smallest with which the system can be solved (tolerance: from the size of rounding
+/// errors to the largest acceptable error).
 const RIDGES: [f64; 7] = [0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4];
 
 /// Residual of the solved system, relative to the largest displacement, above which the next larger
 /// ridge is tried (tolerance: far below a pixel).
 const MAX_RESIDUAL: f64 = 1e-9;
 
-/// Solver for the coefficients of one frame after another, with reusable memory.
+/// Solver for the coefficients at one t after another, with reusable memory.
 #[derive(Debug)]
 pub(super) struct RadialSolver {
     pub(super) arch: Arch,
@@ -212,15 +213,17 @@ impl RadialSolver {
         }
     }
 
-    /// Adds the coupling μ of each close pair to the matrix. μ is 1 / `shrink_factor` − 1,
-    /// multiplied by the energy of the coefficients 1/√2 and −1/√2 at the two centres.
+    /// Adds the weight μ of each close pair to the matrix, which pulls the coefficients of the two
+    /// centres together. μ is the product of 1 / `shrink_factor` − 1 and `bounded`. The number
+    /// `bounded` is the absolute value of the matrix's quadratic form for the coefficients 1/√2 and
+    /// −1/√2 at the two centres, plus the squared distance between the centres.
     fn couple_close_pairs(&mut self) {
         let size = self.places.positions.len() + 3;
         for near in &mut self.places.close_pairs {
             let [i, j] = near.pair;
             let entry = |i: usize, j: usize| self.system.matrix[j * size + i];
             let energy = 0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i));
-            // The energy may vanish for wide Gaussians; the squared distance bounds it from below.
+            // For wide Gaussians `energy` may vanish; the squared distance keeps the sum positive.
             let bounded =
                 energy.abs() + self.places.positions[i].distance_squared(self.places.positions[j]);
             near.coupling = (bounded * (1.0 / near.shrink_factor - 1.0)).min(1e12);

@@ -51,9 +51,10 @@ fn lookups(warp: &ScatteredWarp, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     [source, target]
 }
 
-/// Evaluates at `places` the map that takes `centres` to `values`, with a frame diameter of `unit`.
+/// Evaluates at `places` the mapping that takes `centres` to `values`, with a frame diameter of
+/// `unit`.
 ///
-/// This is the map from the frame to the target at t = 0.
+/// This is the mapping from the frame to the target at t = 0.
 fn mapped(
     centres: &[DVec2],
     values: &[DVec2],

@@ -77,7 +77,7 @@ impl Session {
         self.work = Some(TransitionWork::start(request));
     }
 
-    /// Cancels the work and resets the settings to what the stage shows.
+    /// Cancels the background work and resets the settings to those that the stage was built from.
     pub fn cancel(&mut self) {
         // Dropping the job cancels it; there is no need to wait for its end.
         let Some(work) = self.work.take() else {
@@ -89,8 +89,8 @@ impl Session {
         }
     }
 
-    /// Adopts finished work and starts the next. A better film replaces a draft on the stage only
-    /// if `may_change`, which is true at times when the swap is not visible.
+    /// Adopts the result of finished work and starts the next work. A better film replaces a draft
+    /// on the stage only if `may_change`, which is true at times when the swap is not visible.
     pub fn poll(&mut self, may_change: bool) -> Option<WorkOutcome> {
         let must_wait = |work: &TransitionWork| work.has_draft && !may_change;
         let outcome = match &self.work {

@@ -35,8 +35,8 @@ pub fn menu(ui: &mut Ui, salt: &str, value: &mut EasingFunction, width: f32) -> 
     shown.response
 }
 
-/// Draws the easing editor as a submenu; changes `value`. `None` is the inherited easing, which is
-/// called `inherited` in the list.
+/// Draws the easing editor as a submenu; changes `value`. `inherited` is the label of `None`, the
+/// inherited easing.
 pub fn submenu(ui: &mut Ui, value: &mut Option<EasingFunction>, inherited: &str) -> Response {
     let current = match value {
         Some(ease) => name(*ease),

@@ -108,8 +108,8 @@ pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(icons::fonts());
     ctx.set_style_of(Theme::Dark, style(DARK, Visuals::dark()));
     ctx.set_style_of(Theme::Light, style(LIGHT, Visuals::light()));
-    // egui's own zoom would change the size of its points, but the rectangle of the stage is in
-    // points of the window.
+    // egui's keyboard zoom is off. It would change the size of a point in egui, but the rectangle
+    // of the stage is measured in points of the window.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
 }
 

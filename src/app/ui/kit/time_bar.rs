@@ -11,7 +11,7 @@ use crate::warp::PartClock;
 /// of the bar must stay apart).
 const MIN_WINDOW: f64 = 0.02;
 
-/// Part of the bar that the user drags.
+/// The end of the bar that the user drags, or the whole bar.
 #[derive(Clone, Copy, PartialEq)]
 enum TimeBarGrip {
     Start,
@@ -19,8 +19,9 @@ enum TimeBarGrip {
     Whole,
 }
 
-/// Draws the bar of `clock` and changes the start and end of the clock when the user drags the bar.
-/// A double-click resets the clock to the whole film. `salt` distinguishes the bars of a list.
+/// Draws the bar for `clock`, the time window and easing of a part. Dragging the bar changes the
+/// time window; a double-click resets `clock` to the whole film. `salt` distinguishes the bars of a
+/// list.
 pub fn bar(ui: &mut Ui, salt: usize, width: f32, clock: &mut PartClock) {
     let (outer, _) = ui.allocate_exact_size(vec2(width, CONTROL_HEIGHT), Sense::hover());
     // The id must not depend on the layout. Otherwise a row that appears above the bar would end a

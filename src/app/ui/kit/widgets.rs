@@ -175,7 +175,7 @@ pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     response
 }
 
-/// Space between two segments of a segmented control, in points.
+/// Space between two buttons of a segmented control, in points.
 const SEGMENT_GAP: f32 = 2.0;
 
 /// Draws a segmented control: a row of buttons, one of which is selected. Each option is a value
@@ -255,8 +255,8 @@ pub fn segment_button(ui: &mut Ui, is_selected: bool, label: &str, tip: &str, wi
     with_tooltip(response, tip).clicked()
 }
 
-/// Draws a row with all choices of a setting: a segmented control, or a drop-down list where a
-/// title does not fit into its segment.
+/// Draws a row with all choices of a setting: a segmented control or, if a title does not fit into
+/// its button, a drop-down list.
 pub fn setting_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     let titles = T::CHOICES.iter().map(|choice| choice.name().title);
     row(ui, label, tip, |ui| {
@@ -269,16 +269,17 @@ pub fn setting_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T
     });
 }
 
-/// Width of each of `count` segments that fill the available width, in points.
+/// Returns the width, in points, of each of `count` buttons of a segmented control that fills the
+/// available width.
 fn segment_width(ui: &Ui, count: usize) -> f32 {
     let count = count.max(1) as f32;
     (ui.available_width() - SEGMENT_GAP * (count - 1.0)) / count
 }
 
-/// Returns whether each title fits into its segment.
+/// Returns whether each title fits into its button of a segmented control.
 fn fits_in_segments<'a>(ui: &Ui, titles: impl ExactSizeIterator<Item = &'a str>) -> bool {
-    /// Space to the left and right of a title together, in points, so that titles of neighbouring
-    /// segments stay apart.
+    /// Sum of the spaces to the left and right of a title, in points. It keeps the titles of
+    /// neighbouring buttons apart.
     const PADDING: f32 = 8.0;
     let segment = segment_width(ui, titles.len());
     let width = |title: &str| {
@@ -345,8 +346,8 @@ pub fn intent_button(
     }
 }
 
-/// Returns the frame of a panel at an edge of the window: the background, with inner margins in
-/// points.
+/// Returns the [`egui::Frame`] of a panel at an edge of the window. It has the background of
+/// panels, and inner margins in points.
 pub fn panel_frame(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame {
     let margin = Margin {
         left,
@@ -403,7 +404,7 @@ pub fn hint(ui: &mut Ui, text: &str) {
     ui.add(egui::Label::new(secondary_text(ui, text)).wrap());
 }
 
-/// Draws content from right to left.
+/// Lays out the widgets of `content` from right to left, starting at the right edge.
 pub fn from_right<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
     ui.with_layout(Layout::right_to_left(Align::Center), content)
         .inner

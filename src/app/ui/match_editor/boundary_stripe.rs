@@ -1,8 +1,8 @@
-//! Coloured stripe along the boundary rings in the match editor. Along a ring, the hue runs once
+//! Coloured stripe along the boundary loops in the match editor. Along a loop, the hue runs once
 //! around the colour circle.
 //!
-//! Lightness and chroma are constant in the colour space Oklch (Ottosson 2020), so that no part of
-//! the boundary stands out. They differ between light and dark backgrounds.
+//! Lightness and chroma are constant in the colour space Oklch (Ottosson 2020), so that no stretch
+//! of the boundary stands out. Their values depend on whether the background is light or dark.
 
 use bevy::color::{Oklcha, Srgba};
 use bevy_egui::egui::{Color32, Mesh, Painter, Pos2, Shape, Vec2, vec2};
@@ -21,10 +21,10 @@ const MIN_SPACING: f32 = 0.4;
 /// would be spikes at sharp corners).
 const MAX_MITRE: f32 = 1.6;
 
-/// Returns the colour at the position `place` along a ring, from 0 to 1. `ring` is the index of the
-/// ring; each ring starts at a different hue.
+/// Returns the stripe's colour at `place`, the position along a boundary loop from 0 to 1. `ring`
+/// is the index of the loop; each loop starts at a different hue.
 pub fn colour(place: f64, ring: usize, is_light: bool) -> Color32 {
-    // 77 and 360 are coprime, so the first 360 rings all start at different hues.
+    // 77 and 360 are coprime, so the first 360 loops all start at different hues.
     let hue = (360.0 * place as f32 + 77.0 * ring as f32).rem_euclid(360.0);
     // Only a chroma up to 0.10 fits into sRGB for every hue, but it looks grey. The chroma is
     // therefore higher, and sRGB channels outside [0, 1] are clamped.
@@ -34,8 +34,8 @@ pub fn colour(place: f64, ring: usize, is_light: bool) -> Color32 {
     Color32::from_rgb(byte(srgb.red), byte(srgb.green), byte(srgb.blue))
 }
 
-/// Draws the stripe along a closed ring with the index `ring`. `places` are the positions of
-/// `points` along the ring, from 0 to 1.
+/// Draws the stripe along the boundary loop with the index `ring`. `places` are the positions of
+/// `points` along the loop, from 0 to 1.
 pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, is_light: bool) {
     let mut samples: Vec<(Pos2, Color32)> = Vec::with_capacity(points.len() + 1);
     let ends = points.first().map(|p| (*p, 1.0));
@@ -53,7 +53,7 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
             samples.push((p, colour(place, ring, is_light)));
         }
     }
-    // A ring needs three different vertices; the first one is repeated at the end.
+    // A loop needs three different vertices; the first one is repeated at the end.
     if samples.len() < 4 {
         return;
     }
@@ -81,9 +81,9 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
     painter.add(Shape::mesh(mesh));
 }
 
-/// Returns the offset from a corner of the centre line to the mitre point of the stripe, for a
-/// stripe whose half width is 1. `incoming` and `outgoing` are the edges at the corner. The offset
-/// is at most [`MAX_MITRE`] long.
+/// Returns the offset from a corner of the centre line to the corner of the stripe's edge (mitre),
+/// for a stripe whose half width is 1. `incoming` and `outgoing` are the edges of the centre line
+/// at the corner. The offset is at most [`MAX_MITRE`] long.
 fn mitre(incoming: Vec2, outgoing: Vec2) -> Vec2 {
     let (a, b) = (incoming.normalized(), outgoing.normalized());
     let across = |v: Vec2| vec2(v.y, -v.x);
@@ -92,8 +92,8 @@ fn mitre(incoming: Vec2, outgoing: Vec2) -> Vec2 {
     if length < 1e-3 {
         return across(a);
     }
-    // With the angle `turn` between the directions, |sum| = 2 cos(turn / 2), and the mitre is
-    // 1 / cos(turn / 2) long.
+    // Let α be the angle between the two edges. Then `length` is 2 cos(α / 2), and the offset must
+    // be 2 / `length` = 1 / cos(α / 2) long.
     sum / length * (2.0 / length).min(MAX_MITRE)
 }
 

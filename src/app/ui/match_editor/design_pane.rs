@@ -1,5 +1,6 @@
-//! Pane of one design in the match editor: draws its picture or fill, its boundary rings, hatching
-//! of unmatched parts, and labels, and converts between the design and the window.
+//! Pane of one design in the match editor. It draws the picture or the fill of the design, the
+//! boundary loops, hatching over unmatched parts, and labels. It converts positions between the
+//! design and the window.
 
 use bevy_egui::egui::epaint::Vertex;
 use bevy_egui::egui::{Align2, Color32, Id, Mesh, Painter, Pos2, Rect, Shape, Vec2, pos2, vec2};
@@ -34,14 +35,14 @@ const HATCH_SPACING: f32 = 8.0;
 /// label would cover a smaller hole.
 const MIN_LABELLED_HOLE: f32 = 32.0;
 
-/// Pane of one design, with the map from the common frame of both designs to the window.
+/// Pane of one design, with the affine map from the common frame of both designs to the window.
 #[derive(Clone, Debug)]
 pub struct DesignPane {
-    /// Design that the pane shows.
+    /// Design that the pane shows: source or target.
     pub side: Side,
     /// Rectangle of the pane in the window.
     pub rect: Rect,
-    /// Part of the pane into which the design is fitted, clear of the toolbar and the
+    /// Rectangle in the pane into which the design is fitted, without the toolbar and the
     /// instructions.
     content_rect: Rect,
     centre: DVec2,
@@ -81,7 +82,7 @@ impl DesignPane {
         self.rect.translate(vec2(dx, 0.0))
     }
 
-    /// Maps a point of the common frame of both designs to the window.
+    /// Converts a point of the common frame of both designs to a position in the window.
     pub fn px(&self, p: DVec2) -> Pos2 {
         let from_centre = (p - self.centre) * self.px_per_unit;
         // The y axis points up in the common frame and down in the window.
@@ -107,7 +108,7 @@ impl DesignPane {
         painter.with_clip_rect(self.rect.intersect(painter.clip_rect()))
     }
 
-    /// Draws the design with its match and its labels, but without handles.
+    /// Draws the design with its match and its labels, but without the handles that the user drags.
     pub fn draw(&self, stage: &Painter, state: &UiState, colours: &EditorColours) {
         let painter = self.clip(stage);
         let sheet = &state.sheet;
@@ -243,10 +244,9 @@ impl DesignPane {
         }
     }
 
-    /// Draws hatch lines at 45° over a piece (a connected part of the match) that has no
-    /// counterpart in the other design.
+    /// Draws hatch lines at 45° over a piece that exists in only one design.
     fn hatch(&self, painter: &Painter, sheet: &MatchSheet, piece: usize, colour: Color32) {
-        // The rings are rotated by 45°, so that the hatch lines are horizontal.
+        // The boundary loops are rotated by 45°, so that the hatch lines are horizontal.
         let rotate = |p: &DVec2| {
             let p = self.px(*p);
             DVec2::new(f64::from(p.x + p.y), f64::from(p.y - p.x))
@@ -260,7 +260,7 @@ impl DesignPane {
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
             return;
         };
-        // The map (x, y) to (x + y, y − x) is a rotation that also scales by √2.
+        // The mapping of (x, y) to (x + y, y − x) is a rotation that also scales by √2.
         let step = f64::from(HATCH_SPACING) * std::f64::consts::SQRT_2;
         // Lines outside the pane are skipped. If the user has zoomed in far, most lines are
         // outside.
@@ -294,7 +294,7 @@ impl DesignPane {
         if let Some((_, part, _)) = editor.first_part.filter(|(side, ..)| *side == self.side) {
             outline(part, 5.0);
         }
-        // If there is only one part, it needs no name.
+        // A single piece needs no name, except while the user pairs parts.
         let is_plain = sheet.pieces.len() < 2 && editor.tool != EditorTool::Parts;
         if is_plain {
             return;
@@ -310,10 +310,11 @@ impl DesignPane {
         }
     }
 
-    /// Returns the offset from the usual place of a part's name, which is in the part, to the place
-    /// where it is drawn. The name of a small part is drawn above the part.
+    /// Returns the offset of a piece's name from the default place inside the piece. The name of a
+    /// small piece is drawn above the piece.
     fn name_offset(&self, sheet: &MatchSheet, piece: usize) -> Vec2 {
-        /// Minimum size of a part at which its name is drawn inside it, in points.
+        /// Minimum length, in points, of the longer side of a piece's bounds at which the name is
+        /// drawn inside the piece.
         const MIN_SIZE_FOR_NAME: f32 = 56.0;
         let rings = sheet.rings.iter().filter(|ring| ring.piece == piece);
         let points = rings.flat_map(|ring| self.line(&ring.sides[self.side]));
@@ -338,8 +339,8 @@ impl DesignPane {
     }
 }
 
-/// Draws a ring without a partner as a dashed line, or as a small circle if it is tiny on the
-/// screen.
+/// Draws an unmatched boundary loop as a dashed line, or as a small circle if the loop is tiny on
+/// the screen.
 fn draw_unmatched_ring(painter: &Painter, mut points: Vec<Pos2>, colours: &EditorColours) {
     let Some(first) = points.first().copied() else {
         return;
@@ -353,8 +354,8 @@ fn draw_unmatched_ring(painter: &Painter, mut points: Vec<Pos2>, colours: &Edito
     painter.extend(Shape::dashed_line(&points, stroke, 5.0, 4.0));
 }
 
-/// Draws a label on a card centred at `at`. The frame of the card is accented if the match was set
-/// by hand (`is_manual`).
+/// Draws a label on a card centred at `at`. The border of the card has the accent colour if the
+/// user set the match by hand (`is_manual`).
 pub fn label_card(
     painter: &Painter,
     at: Pos2,

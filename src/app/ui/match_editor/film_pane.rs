@@ -1,4 +1,5 @@
-//! Film pane of the match editor, next to the designs: the stage itself shows through it.
+//! Film pane of the match editor, next to the designs. The pane is transparent, so that the stage
+//! behind it is visible.
 
 use bevy::prelude::Vec2;
 use bevy_egui::egui::{Align2, PointerButton, Rect, Sense, Ui, vec2};
@@ -13,8 +14,8 @@ use crate::app::ui::stage::area::{self, zoom_factor};
 use crate::app::ui::stage::{checks, onion};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Fills the pane above and below the film, draws the overlays of the film, and handles panning and
-/// zooming. Returns the rectangle in which the stage is visible.
+/// Paints the background above and below the film, draws the overlays of the film, and handles
+/// panning and zooming. Returns the rectangle in which the stage is visible.
 pub fn show(
     root: &Ui,
     state: &UiState,

@@ -1,5 +1,6 @@
-//! Draws the handles of the match editor (pins, automatically matched points, cuts and lines), the
-//! link between the two places of a handle, and the message about a failed match.
+//! Draws the handles of the match editor (pins, automatically matched points, cuts and lines), a
+//! dashed line between the two positions of a handle in source and target, and the message about a
+//! failed match.
 
 use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, StrokeKind, vec2};
 
@@ -21,7 +22,8 @@ const PIN_RADIUS: f32 = 8.5;
 /// Radius of an automatically matched point, in points.
 const FEATURE_RADIUS: f32 = 7.0;
 
-/// Draws all handles in both panes, and the link of the handle under the pointer.
+/// Draws all handles in both panes, and the dashed line between the two positions of the handle
+/// under the pointer.
 pub fn draw(painter: &Painter, state: &UiState, panes: &[DesignPane; 2], colours: &EditorColours) {
     let (sheet, editor) = (&state.sheet, &state.editor);
     for pane in panes {
@@ -32,8 +34,8 @@ pub fn draw(painter: &Painter, state: &UiState, panes: &[DesignPane; 2], colours
             lines(&clipped, sheet, editor, pane, colours);
         }
     }
-    // The link crosses both panes, so it is not clipped. Pins are drawn above it, because the user
-    // grabs them.
+    // The dashed line crosses both panes, so it is not clipped. Pins are drawn above it, because
+    // the user grabs them.
     link(painter, sheet, editor, panes, colours);
     for pane in panes {
         let clipped = pane.clip(painter);
@@ -89,8 +91,8 @@ fn pins(painter: &Painter, state: &UiState, pane: &DesignPane, colours: &EditorC
     }
 }
 
-/// Draws each line of a line warp with its number at the middle. The first end of a line is a disc,
-/// the second end a ring.
+/// Draws each matched line with its number at the middle. A filled disc marks the first end of a
+/// line, a circle the second end.
 fn lines(
     painter: &Painter,
     sheet: &MatchSheet,
@@ -159,8 +161,8 @@ fn cuts(
     }
 }
 
-/// Draws a dashed line between the places, in source and target, of the handle or boundary point
-/// under the pointer, or of the handle that the user drags.
+/// Draws a dashed line between the positions, in source and target, of the handle that the user
+/// drags or, without a drag, of the handle or boundary point under the pointer.
 fn link(
     painter: &Painter,
     sheet: &MatchSheet,
@@ -194,7 +196,8 @@ fn link(
     }
 }
 
-/// Draws a card that explains why the match failed, next to the pin that caused it or in a corner.
+/// Draws a card that explains why the match failed. The card is next to the pin that caused the
+/// failure, else next to the selected handle, else in a corner.
 fn problem_card(
     painter: &Painter,
     state: &UiState,
@@ -235,7 +238,7 @@ fn problem_card(
         area.min + vec2(0.0, BAR_HEIGHT + GRID),
         area.max - vec2(0.0, INSTRUCTIONS_HEIGHT),
     );
-    // If no pin caused the problem, the card is shown in a corner, where it covers least.
+    // Without a faulty pin or a selected handle, the card is shown in the lower left corner.
     let corner = at.unwrap_or_else(|| area.left_bottom() - vec2(0.0, size.y));
     // If the card were larger than the area, `clamp` would panic on an inverted range.
     let max_corner = (area.max - size).max(area.min);

@@ -148,7 +148,8 @@ fn handle_pointer(
     }
 }
 
-/// Returns whether the pointer has left both design panes while something is still highlighted.
+/// Returns whether the pointer has left both design panes while a handle, boundary point or part is
+/// still highlighted.
 fn has_left(state: &UiState, pane: &DesignPane, response: &Response) -> bool {
     let editor = &state.editor;
     let is_highlighted =

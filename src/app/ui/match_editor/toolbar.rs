@@ -30,7 +30,8 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
 
 fn tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     let is_free = state.sheet.has_free_pins();
-    // Lines are used by warps of the whole plane; parts are paired only in matches of outlines.
+    // The line tool is offered only for warps of the whole plane, the part tool only for matches of
+    // outlines.
     let tools = [
         (
             EditorTool::Pins,
@@ -70,7 +71,8 @@ fn tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     }
 }
 
-/// Draws the buttons that show the film pane and that link the views of all panes.
+/// Draws the button that shows the film pane, and the button that makes all panes pan and zoom
+/// together.
 fn views(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     let panes = &state.editor.panes;
     let mut send = |action: EditorAction| intents.push(Intent::Editor(action));

@@ -17,8 +17,8 @@ use crate::app::ui::ui_state::{Intents, UiState};
 /// Width of the file dialog's side panel, in points.
 pub const WIDTH: f32 = 192.0;
 
-/// Path that the user types, with its completions. They are looked up only when the text or the
-/// folder changes.
+/// Path that the user types, with its completions. The completions are looked up only when the text
+/// or the folder changes.
 #[derive(Debug, Default)]
 pub struct TypedPath {
     text: String,
@@ -103,7 +103,8 @@ fn set_cursor(ui: &Ui, id: Id, char_index: usize) {
     state.store(ui.ctx(), id);
 }
 
-/// Draws the preview of `file`, the selected file, or the reason why there is none.
+/// Draws the preview of the selected file or, if there is no preview, the reason. Draws nothing if
+/// `file` is `None`.
 pub fn preview(ui: &mut Ui, state: &UiState, file: Option<&Path>, intents: &mut Intents) {
     let Some(file) = file else {
         return;

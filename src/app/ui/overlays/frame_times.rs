@@ -1,5 +1,6 @@
-//! Strip of frame times: the median durations of solving, drawing and whole frames, and whether
-//! frames are solved or played from a recording.
+//! Strip that shows how long the frames of the window take: the median times of solving the
+//! transition, of drawing and of a whole frame. The strip also says whether the transition is
+//! solved in each frame or played from a recording.
 
 use bevy_egui::egui::{Panel, Ui};
 
@@ -45,8 +46,8 @@ fn line(ui: &mut Ui, state: &UiState) {
     ui.label(secondary_text(ui, label)).on_hover_text(details);
 }
 
-/// Returns how frames are computed (solved, or played from a recording), as a short label and as a
-/// tooltip.
+/// Returns how the frames of the film are computed (solved, or played from a recording), as a short
+/// label and as a tooltip.
 fn frame_source(state: &UiState) -> (String, String) {
     let solved = || "Solved".to_owned();
     match state.session.transition().and_then(Transition::recording) {

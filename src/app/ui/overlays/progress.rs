@@ -11,7 +11,7 @@ use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{card, fixed_layer};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Length of the longer side of the film frame that is shown during an export, in points.
+/// Length of the longer side of the image that shows the current frame of an export, in points.
 const PREVIEW_SIDE: f32 = 120.0;
 
 /// Draws a card for each running job (build, method search, export) at the top of `stage`.

@@ -1,5 +1,5 @@
-//! Appearance section of the inspector: visible elements of the stage, colours, options of painted
-//! parts, and the drawing of bars.
+//! Appearance section of the inspector: visible elements of the stage, colours, options of paint
+//! layers, and how bars are drawn.
 
 use bevy_egui::egui::{Ui, vec2};
 
@@ -40,7 +40,8 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
     });
 }
 
-/// Draws the options of painted parts: whether they fade, and when their stacking order changes.
+/// Draws the options of paint layers: whether unmatched parts fade, and at which t the stacking
+/// order changes.
 fn paint_layers(ui: &mut Ui, layers: &mut PaintLayerOptions) {
     let tip = "Fades parts that exist in only one design, in addition to scaling them.";
     toggle(ui, "Fade parts", tip, &mut layers.fade);
@@ -57,8 +58,9 @@ fn paint_layers(ui: &mut Ui, layers: &mut PaintLayerOptions) {
 
 const CONTOURS_TIP: &str = "Lines of equal distance in the blended field.";
 
-/// Toggle of one element of the stage ("layer" in the window). Fields: whether the element is
-/// visible, its name, its tooltip, and whether the transition can show it.
+/// Switch that shows or hides one element of the stage. The user interface calls such an element a
+/// layer. Fields: whether the element is visible, its name, its tooltip, and whether the transition
+/// can show it.
 type LayerToggle<'a> = (&'a mut bool, &'static str, &'static str, bool);
 
 fn layer_toggles<'a>(
@@ -70,7 +72,7 @@ fn layer_toggles<'a>(
     let is_field = project.content == Some(ContentKind::Field);
     // A distance field represents the area that the bars cover, so it has no bars to show.
     let has_bars = state.session.has_bars() && !is_field;
-    // Boundary paths move only outlines, so they cannot deform a grid.
+    // The warp by boundary paths moves only outlines, so it cannot deform a grid.
     let has_grid = project.warp != Some(WarpKind::Paths);
     [
         (&mut show.fill, "Fill", "The filled shape.", true),

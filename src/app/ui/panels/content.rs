@@ -10,8 +10,8 @@ use crate::content::{BlendSpace, ColourMix, FieldBlend};
 use crate::field::Metric;
 use crate::transition::FieldOptions;
 
-/// Minimum length of the cross-fade's range of t (tolerance: a range without length would be a
-/// jump).
+/// Minimum length of the range of t in which the pictures cross-fade (tolerance: a range without
+/// length would be a jump).
 const MIN_RANGE: f64 = 0.01;
 
 /// Draws the section with the options of the cross-fade between two pictures.

@@ -79,7 +79,8 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
     });
 }
 
-/// Draws the list of all designs with buttons to reorder them, and the option that closes the loop.
+/// Draws the list of all designs with buttons to reorder them, and the option that continues the
+/// film from the last design to the first.
 fn order(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Intents) {
     let current = project.segment_designs(state.session.segment());
     for (k, entry) in project.designs.iter().enumerate() {

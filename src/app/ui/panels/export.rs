@@ -1,6 +1,6 @@
 //! Export settings, which replace the inspector's sections: preset, size, range, file type and
-//! background of films, and size and background of images. Below them, the estimated cost of an
-//! export is shown.
+//! background of films, and size and background of images. Below the settings, the panel shows the
+//! estimated file size and export time.
 
 use bevy_egui::egui::{Button, ComboBox, Frame, Key, Margin, Panel, Response, TextEdit, Ui, vec2};
 
@@ -166,8 +166,8 @@ fn preset(ui: &mut Ui, draft: &mut Preferences) {
     segmented_row(ui, "Preset", tip, &mut preset, &presets);
     if let Some(preset) = preset.filter(|_| preset != before) {
         *layout = preset.layout();
-        // Slides and posts accept MP4. For a web page, the content determines the file type, so
-        // that the film plays without a video player.
+        // Slides and posts accept MP4. For a web page, `None` chooses the file type by content:
+        // usually GIF, which needs no video player.
         draft.record_format = match preset {
             LayoutPreset::WebPage => None,
             _ if has_ffmpeg() => Some(FilmFileFormat::Film(FilmKind::Mp4)),

@@ -48,14 +48,15 @@ fn sections(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     if state.map.is_shown {
         map::show(ui, state, intents);
     }
-    // A change of the method is not made in the copy. It is sent as a separate intent, the same one
-    // that the keyboard shortcut sends.
+    // The method is not changed in `draft`. A new method is sent as a separate intent, which the
+    // keyboard shortcut also sends.
     method::show(ui, state, project, intents);
     let mut draft = project.clone();
     if state.session.has_match_editor() && draft.warp != Some(WarpKind::None) {
         matching::show(ui, state, &mut draft, intents);
     }
-    // A film along a path blends all designs, for which these options of rigid parts do not exist.
+    // A film along a path blends all designs, but the options of rigid motion and part timing apply
+    // only to two designs.
     let is_pair = !draft.follows_path();
     if draft.warp == Some(WarpKind::Arap) && is_pair {
         rigid_motion::show(ui, state, &mut draft.options.arap);

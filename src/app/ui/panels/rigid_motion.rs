@@ -11,15 +11,15 @@ use crate::app::ui::kit::widgets::{
 use crate::app::ui::ui_state::UiState;
 use crate::warp::{ArapOptions, ArapPath, FaceWeights};
 
-/// Maximum number of parts for which extra turns can be set separately (resource limit: room in the
-/// panel).
+/// Maximum number of parts for which the user can set extra full turns separately (resource limit:
+/// room in the panel).
 const MAX_PARTS: usize = 8;
 
 /// Maximum number of subdivisions that the window offers (resource limit: each subdivision
 /// quadruples the number of faces).
 const MAX_SUBDIVISIONS: u32 = 4;
 
-/// Range of the extra turns that the window offers. The eye cannot follow faster rotation.
+/// Range of extra full turns that can be set in the window. The eye cannot follow faster rotation.
 const TURN_RANGE: RangeInclusive<i32> = -9..=9;
 
 /// Draws the rigid motion section.
@@ -55,8 +55,8 @@ fn weights(ui: &mut Ui, weights: &mut FaceWeights) {
                 "All equal, as in the paper: finely divided parts are stiffer",
             ),
         ];
-        // Weights per face come from the project file. They cannot be edited here, but they are
-        // shown as a choice while they are selected.
+        // Weights of single faces come from the project file. They cannot be edited in the window,
+        // but they are listed as a choice while they are in use.
         if matches!(weights, FaceWeights::PerFace(_)) {
             options.push((weights.clone(), "Custom", "The weights in the project file"));
         }

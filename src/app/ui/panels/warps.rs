@@ -1,4 +1,4 @@
-//! Sections of the inspector with the options of all warps except rigid parts.
+//! Sections of the inspector with the options of all warps except the warp by rigid parts.
 
 use bevy_egui::egui::Ui;
 
@@ -9,8 +9,8 @@ use crate::warp::{
     FeatureTravel, LatticeOptions, LineOptions, PathOptions, RadialBasis, ScatteredOptions,
 };
 
-/// Maximum number of cells of the coarsest lattice along the longer side of the frame (resource
-/// limit: with [`MAX_LEVELS`] lattices, the finest one has 1,024 cells along this side).
+/// Maximum number of cells of the coarsest B-spline lattice along the longer side of the frame
+/// (resource limit: with [`MAX_LEVELS`] lattices, the finest one has 1,024 cells along this side).
 const MAX_CELLS: u32 = 16;
 
 /// Maximum number of lattices, each twice as fine as the one before (resource limit: see

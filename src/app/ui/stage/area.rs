@@ -1,5 +1,6 @@
-//! The part of the window in which the stage is visible: handles panning and zooming, shows a hint
-//! while the stage is empty, and provides colours that are readable on the stage's background.
+//! Stage area: the rectangle of the window in which the stage is visible. Handles panning and
+//! zooming, shows a hint while the stage is empty, and provides colours that are readable on the
+//! stage's background.
 
 use bevy::prelude::Vec2;
 use bevy_egui::egui::{Align2, Color32, FontId, Rect, Sense, Ui};
@@ -16,7 +17,8 @@ const ZOOM_PER_POINT: f32 = 0.0025;
 /// Sends intents that pan, zoom and fit the view when the user drags, scrolls or double-clicks in
 /// `rect`.
 ///
-/// `rect` is the stage or the right half of a comparison, which shows the same part of the plane.
+/// `rect` is the stage or the right half of a comparison, which shows the same section of the
+/// plane.
 pub fn show(root: &mut Ui, rect: Rect, name: &str, intents: &mut Intents) {
     let response = root.interact(rect, root.id().with(name), Sense::click_and_drag());
     if response.dragged() {

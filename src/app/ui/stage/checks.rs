@@ -30,8 +30,8 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let measures = state.measures.measures();
     let lines = measures.map_or(1, |measures| {
         let verdict = &measures.verdict;
-        // Besides findings and notes there is one line: it offers fixes or, without findings, says
-        // that there are none.
+        // The findings and notes take one line each. One more line offers fixes or, without
+        // findings, reports that the check found no defects.
         verdict.findings.len() + 1 + verdict.notes.len()
     });
     let frame = panel_frame(root, [8, 8, 4, 4]);
@@ -67,8 +67,8 @@ pub fn unmeasured_reason(state: &UiState) -> String {
     }
 }
 
-/// Draws a line for each finding and a line with the fixes; without findings, draws one line that
-/// says so. Below, draws a line for each note.
+/// Draws a line for each finding and then a line with the fixes. If there are no findings, draws
+/// one line with this result instead. Draws a line for each note below.
 fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Intents) {
     let verdict = &measures.verdict;
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -223,7 +223,7 @@ fn fix_button(ui: &mut Ui, index: usize, finding: &Finding, intents: &mut Intent
     }
 }
 
-/// Marks the places of those findings on the stage whose moment is near the current t.
+/// Marks on the stage the places of the findings that occur near the current t.
 pub fn mark(ui: &Ui, state: &UiState, stage: Rect) {
     let Some(measures) = state.measures.measures() else {
         return;

@@ -31,9 +31,9 @@ pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) 
     left
 }
 
-/// Draws over the left half (the stage) a hint if the stage is empty, and marks at the findings of
-/// the automatic check. Draws over the right half, if it is empty, the reason. Draws the line
-/// between the halves.
+/// Draws the overlays of both halves. On the left (the stage): a hint if the stage is empty, and
+/// marks at the findings of the automatic check. On the right: if this half is empty, the reason.
+/// Also draws the line between the halves.
 fn overlays(root: &mut Ui, state: &UiState, [left, right]: [Rect; 2]) {
     area::empty_hint(root, state, left);
     checks::mark(root, state, left);

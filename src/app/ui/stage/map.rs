@@ -132,7 +132,7 @@ fn handle_drag(
     }
     match drag.design {
         Some(design) => intents.push(Intent::MoveMapDesign(design, place)),
-        // Each new pointer position extends the line, from the position of the button press on.
+        // While the button is pressed, each new pointer position extends the line.
         None if state.map.is_drawing_path && drag.line.last() != Some(&place) => {
             drag.line.push(place)
         }
@@ -184,7 +184,7 @@ fn draw(
 /// Draws the path with its stops, the line that the user is drawing, and a star at each saved
 /// blend.
 fn draw_path(root: &Ui, state: &UiState, left: Rect, square: Rect, ink: Color32) {
-    /// Number of straight pieces with which each segment of the path's curve is drawn.
+    /// Number of straight lines that approximate each segment of the path's curve.
     const POINTS: usize = 48;
     let painter = root.painter_at(left);
     let stroke = Stroke::new(2.0, ink);

@@ -68,7 +68,8 @@ fn measures(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     }
 }
 
-/// Draws the buttons for drawing a path, recording a path, and saving a blend.
+/// Draws the buttons for drawing a path, for recording the marker's movement as a path, and for
+/// saving a blend.
 fn tools(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let accent = ThemePalette::of(ui).accent;
     let size = vec2(32.0, CONTROL_HEIGHT);

@@ -37,8 +37,8 @@ pub fn show(ui: &Ui, state: &UiState, ruler: TimelineRuler, top: f32, intents: &
     let last = count - 1;
     let t = |index: usize| segments as f64 * index as f64 / last as f64;
     let spacing = ruler.x(t(1)) - ruler.x(t(0));
-    // Every `step`-th thumbnail is shown. The step divides `last`, so that the first and the last
-    // thumbnail are shown.
+    // Every `step`-th thumbnail is shown. The step divides the index of the last thumbnail, so that
+    // the first and the last one are shown.
     let Some(step) = (1..=last)
         .filter(|step| last.is_multiple_of(*step))
         .find(|step| spacing * *step as f32 >= MIN_THUMBNAIL_WIDTH + GAP)

@@ -107,7 +107,7 @@ fn graph(
     let is_pressed = response.response.is_pointer_button_down_on()
         || response.response.dragged_by(PointerButton::Primary);
     if let Some(pointer) = response.inner.filter(|_| is_pressed) {
-        // The axis extends slightly beyond the measured range [0, 1].
+        // The axis extends slightly beyond the measured range, which is 0 to 1, so t is clamped.
         let t = state.session.whole_t(pointer.x.clamp(0.0, 1.0));
         intents.push(Intent::Seek(t));
     }
@@ -152,7 +152,8 @@ fn is_ratio(quantity: Quantity) -> bool {
     )
 }
 
-/// Maps a value of a quantity to the quantity's axis, which is logarithmic for ratios.
+/// Converts a value of a quantity to a coordinate on the quantity's axis, which is logarithmic for
+/// ratios.
 fn axis_value(quantity: Quantity, value: f64) -> f64 {
     if is_ratio(quantity) {
         value.log10()

@@ -34,7 +34,7 @@ impl TimelineRuler {
             .iter()
             .map(|stop| stop.t)
             .chain([timing.from, timing.to]);
-        // The current t may lie far outside the film; the track must show it there, too.
+        // The current t may lie far outside the film. The track is extended to show it.
         let places = places.chain([state.playback.t()]);
         // The margin in t is proportional to the number of segments, so that its width on screen
         // does not depend on this number.

@@ -208,7 +208,7 @@ fn stops(
     stops: &mut Vec<TransitionStop>,
     intents: &mut Intents,
 ) {
-    // The stop is removed after the loop, because the loop borrows the list.
+    // A deleted stop is removed after the loop, because the loop borrows the list.
     let mut deleted = None;
     let places: Vec<f64> = stops.iter().map(|stop| stop.t).collect();
     for (index, stop) in stops.iter_mut().enumerate() {

@@ -28,7 +28,7 @@ fn circle(centre: DVec2, radius: f64, n: usize, turn: f64) -> Vec<DVec2> {
     (0..n).map(at).collect()
 }
 
-/// Builds the guaranteed base mesh of a piece, without trying a transfer first.
+/// Builds the base mesh of a piece, without trying a transfer first.
 fn from_the_base(source: &TestPiece, target: &TestPiece) -> CompatibleMesh {
     let base = from_base(
         &BoundaryRings::of(source),
@@ -40,8 +40,7 @@ fn from_the_base(source: &TestPiece, target: &TestPiece) -> CompatibleMesh {
     CompatibleMesh::new(faces, p, q, vec![]).expect("valid")
 }
 
-/// Checks the meshes of the full pipeline and of the guaranteed base alone, in both orders of the
-/// designs.
+/// Checks the mesh of all steps together and the base mesh alone, in both orders of the designs.
 fn assert_all_ways(source: &TestPiece, target: &TestPiece) {
     let options = PolygonOptions::default();
     for (p, q) in [(source, target), (target, source)] {

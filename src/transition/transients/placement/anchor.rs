@@ -17,7 +17,7 @@ pub(super) fn carried_within(
         .filter(|(now, _)| now.winding(here) != 0)
         .map(|(now, then)| (signed_area(&now.points).abs(), now, then))
         .min_by(|a, b| a.0.total_cmp(&b.0))?;
-    // The fit fails if all points of the outline coincide.
+    // The fit fails if all points of the outline coincide. The point then stays in place.
     let place = SimilarityFit::of(&now.points, &then.points).map_or(here, |fit| fit.apply(here));
     Some((size, place))
 }

@@ -1,8 +1,9 @@
 //! Searches the position and time window of a part that exists in only one design, among everything
 //! that is drawn during the motion.
 //!
-//! Among positions that are equally free, the nearest to the part's own position in the whole
-//! design is chosen; among windows, the one that suits the schedule best ([`TransientSchedule`]).
+//! The part's *own position* is the position to which the outlines around it would carry it. Among
+//! positions that are equally free of collisions, the nearest to the own position is chosen; among
+//! time windows, the one that suits the schedule best ([`TransientSchedule`]).
 
 use super::anchor::{carried_among, carried_within};
 use super::seed_shape::TransientPart;
@@ -16,34 +17,36 @@ use crate::transition::transients::schedule::{TransientSchedule, eighths};
 use crate::warp::{Arap, Placer, TimeWindow, Warp};
 use rayon::prelude::*;
 
-/// Clearance around a growing part, as a fraction of its size; it decreases to 0 at full size
-/// (heuristic).
+/// Required clearance around a growing part, as a fraction of its current size; it decreases to 0
+/// at full size (heuristic).
 const MARGIN: f64 = 0.05;
 
-/// Positions searched along each side of the bounding box (heuristic).
+/// Number of candidate positions along each side of the bounding box (heuristic).
 const PLACES: u32 = 10;
-/// Positions searched for all parts together (resource limit: a hundred nested rings, none of
-/// which finds a free position, took minutes).
+/// Maximum total number of candidate positions of all parts (resource limit: a hundred nested
+/// rings, none of which finds a free position, took minutes).
 const PLACES_OF_ALL: f64 = 2400.0;
 
-/// Number of candidates that are examined in parallel (heuristic: more would be examined before the
-/// best cost so far is known).
+/// Number of candidate positions that are examined in parallel (heuristic: more would be examined
+/// before the best cost so far is known).
 const ABREAST: usize = 8;
 
 /// Cost for each unit of t during which a part collides: 5 for a step of 1/64 (heuristic).
 const MEETING: f64 = 320.0;
-/// Cost for each diameter of the design between a part's position and its own position (heuristic).
+/// Cost for each diameter of the design between a candidate position and the part's own position,
+/// to which the surrounding outlines would carry it (heuristic).
 const DISTANCE: f64 = 0.25;
-/// Additional cost of appearing or disappearing at once (heuristic).
+/// Additional cost of the shortest time window, in which a part appears or disappears at once
+/// (heuristic).
 const AT_ONCE: f64 = 0.5;
 
-/// Maximum collision cost of a window in the schedule (heuristic).
+/// Maximum collision cost of a time window in the schedule (heuristic).
 const DEAR: f64 = 1.0;
 
 /// Position, time window and kind of growth of a part that exists in only one design.
 #[derive(Clone, Copy)]
 pub(super) struct TransientPlacement {
-    /// Position of its centroid in the design in which it is a seed shape.
+    /// Position of the part's centroid in the design in which the part is a seed shape.
     pub(super) place: DVec2,
     pub(super) life: TimeWindow,
     /// Whether the part grows in thickness within its outline instead of from a seed shape.
@@ -51,8 +54,8 @@ pub(super) struct TransientPlacement {
 }
 
 impl TransientPlacement {
-    /// Returns the outlines of the part at `t`. The smaller a growing part is, the more it is
-    /// enlarged, by at most the fraction `margin` of its size.
+    /// Returns the outlines of the part at `t`. A growing part is enlarged to keep its clearance:
+    /// by nearly the fraction `margin` of its size while it is small, and not at all at full size.
     fn at(&self, speck: &TransientPart, film: &Arap, t: f64, margin: f64) -> Vec<LayeredOutline> {
         let share = self.life.fraction_done(t);
         // Nothing is drawn while the part has no size.
@@ -76,7 +79,8 @@ impl TransientPlacement {
         let centre = film.carried_position(speck.ends_at(self.place), share, t);
         let from_centre = here - speck.ends[speck.side];
         match self.swells {
-            // A swelling part moves as a whole and keeps its size.
+            // A swelling part keeps its outline and only grows in thickness, so the point moves as
+            // the whole part does.
             true => centre + speck.off_middle_at(share) + from_centre,
             false => centre + from_centre * speck.size(share),
         }
@@ -87,7 +91,7 @@ impl TransientPlacement {
 struct SceneTransient<'a> {
     speck: &'a TransientPart,
     birth: TransientPlacement,
-    /// Its outlines at each sample time.
+    /// Outlines of the part at each sample time.
     outlines: Vec<Vec<LayeredOutline>>,
 }
 
@@ -100,11 +104,11 @@ pub(super) struct TransientScene<'a> {
     holes: Vec<Vec<LayeredOutline>>,
     /// Parts that are already placed.
     born: Vec<SceneTransient<'a>>,
-    /// Parts that are not placed yet: the design that has each, and its outlines there. The next
-    /// one to be placed is the last.
+    /// Parts that are not placed yet: the design that has each part, and its outlines in that
+    /// design. The next part to be placed is the last entry.
     unplaced: Vec<(Side, Vec<LayeredOutline>)>,
     bounds: Bounds,
-    /// Candidate positions.
+    /// Candidate positions, in addition to those along the part's own outline.
     grid: Vec<DVec2>,
 }
 
@@ -141,8 +145,8 @@ impl<'a> TransientScene<'a> {
         }
     }
 
-    /// Places the next part, which has the index `k` in the schedule. Other positions than its own,
-    /// and swelling, are tried only if `is_searched`.
+    /// Places the next part, which has the index `k` in the schedule. If `is_searched` is false,
+    /// the part gets its own position and does not swell.
     pub(super) fn place(
         &mut self,
         speck: &'a TransientPart,
@@ -170,8 +174,8 @@ impl<'a> TransientScene<'a> {
         self.born.iter().map(|born| (born.speck, &born.birth))
     }
 
-    /// Returns the cheapest placement of a part: the cost of its window in the schedule plus the
-    /// costs of distance and collisions.
+    /// Returns the placement of a part with the lowest cost: the cost of its time window in the
+    /// schedule plus the costs of distance and collisions.
     fn best(
         &self,
         speck: &TransientPart,
@@ -193,7 +197,8 @@ impl<'a> TransientScene<'a> {
             false => 0.0,
         };
         let ranked = timetable.ranked(k);
-        // Appearing at once is the last resort.
+        // Appearing or disappearing at once is the last resort, so it costs more than all other
+        // time windows.
         let most = ranked.last().map_or(0.0, |(cost, _)| *cost);
         let at_once = (most + AT_ONCE, speck.at_once());
         for (unrest, life) in ranked.into_iter().chain([at_once]) {
@@ -209,12 +214,13 @@ impl<'a> TransientScene<'a> {
         best.1
     }
 
-    /// Returns the collision cost of each candidate window of a part: its distance from its own
-    /// position, and the time during which it collides even so.
+    /// Returns the collision cost of each time window in [`eighths`] for a part: the lowest sum of
+    /// the costs of distance and collisions that any position gives, at most [`DEAR`].
     pub(super) fn prices(&self, speck: &TransientPart, film: &Arap) -> Vec<f64> {
         let price = |life: TimeWindow| {
             let mut births = self.births_in(speck, film, life, true);
-            // Whether swelling pays off depends on the other parts, so it is not considered here.
+            // Whether growing in thickness (swelling) pays off depends on the other parts, so it is
+            // not considered here.
             births.retain(|(_, birth)| !birth.swells);
             let cheapest = self.cheapest((speck, births), film, |_| 0.0, DEAR);
             cheapest.map_or(DEAR, |(cost, _)| cost)
@@ -223,9 +229,9 @@ impl<'a> TransientScene<'a> {
         lives.into_par_iter().map(price).collect()
     }
 
-    /// Returns the cheapest placement and its cost; `None` if all cost at least `most`. Each
-    /// placement is given with its distance from the part's own position; `more` returns a further
-    /// cost of a placement.
+    /// Returns the placement with the lowest cost, and the cost; `None` if all cost at least
+    /// `most`. Each placement in `births` comes with its distance from the part's own position;
+    /// `more` returns a further cost of a placement.
     fn cheapest(
         &self,
         (speck, mut births): (&TransientPart, Vec<(f64, TransientPlacement)>),
@@ -237,18 +243,20 @@ impl<'a> TransientScene<'a> {
         // The nearest placements are examined first: they have the lowest cost, so costlier ones
         // are abandoned early. Swelling is last, because it takes longest to examine.
         births.sort_by(|(a, p), (b, q)| p.swells.cmp(&q.swells).then(a.total_cmp(b)));
-        // Most parts can stay at their own position, so it is examined alone.
+        // Most parts can stay at their own position, so that position is examined alone.
         let (own, others) = births.split_at(1);
         for some in std::iter::once(own).chain(others.chunks(ABREAST)) {
             let cost = |(distance, birth): &(f64, TransientPlacement)| {
                 let far = DISTANCE * distance / self.bounds.diameter();
-                // The further cost of swelling takes long to compute.
+                // The further cost of a part that grows in thickness takes long to compute, so it
+                // is computed only if the cost of distance alone is not too high.
                 let known = (far < best.0).then(|| far + more(birth))?;
                 let most = (best.0 - known) / MEETING;
                 (known < best.0).then(|| known + MEETING * self.meetings(speck, birth, film, most))
             };
             let costs: Vec<Option<f64>> = match some {
-                // Sharing out one candidate would take longer.
+                // A single placement is examined on this thread, because starting others would take
+                // longer.
                 [one] => vec![cost(one)],
                 _ => some.par_iter().map(cost).collect(),
             };
@@ -262,9 +270,9 @@ impl<'a> TransientScene<'a> {
         birth.map(|birth| (cost, birth))
     }
 
-    /// Returns the candidate placements for a window, each with its distance from the part's own
-    /// position, which comes first. Other positions, also those along the part's own outline, and
-    /// swelling are included only if `is_searched`.
+    /// Returns the candidate placements for a time window, each with its distance from the part's
+    /// own position. The own position comes first. Other positions, some of them along the part's
+    /// own outline, and growth in thickness are included only if `is_searched`.
     fn births_in(
         &self,
         speck: &TransientPart,
@@ -289,8 +297,8 @@ impl<'a> TransientScene<'a> {
             };
             (place.distance(own), birth)
         };
-        // A swelling part either moves with its surroundings, or starts at the place in the frame
-        // where it is in its design.
+        // A part that grows in thickness either moves with the outlines around it, or starts
+        // exactly where it is drawn in its design.
         let drawn = film.uncarried_ends(speck.ends[speck.side], begins(speck, life));
         let swells = |place: DVec2| {
             let birth = TransientPlacement {
@@ -305,7 +313,7 @@ impl<'a> TransientScene<'a> {
         growing.map(grows).chain(swelling).collect()
     }
 
-    /// Returns the length of t during which the part collides. Counting stops once it exceeds
+    /// Returns the total length of t during which the part collides. Counting stops once it exceeds
     /// `most`.
     fn meetings(
         &self,
@@ -320,8 +328,9 @@ impl<'a> TransientScene<'a> {
         let last = self.steps.last();
         let steps = (0..=last).step_by(2).chain((1..=last).step_by(2));
         for step in steps {
-            // Starts near the part's own design, where it is largest and collides most; in that
-            // design itself it is as drawn.
+            // The loop starts at the design that has the part, because the part is largest and
+            // collides most near this design. In the design itself (step 0), the part cannot
+            // collide.
             if long > most || step == 0 {
                 continue;
             }
@@ -337,8 +346,8 @@ impl<'a> TransientScene<'a> {
     }
 
     /// Returns the outlines, except holes, that a part of design `side` must avoid at a sample
-    /// time. Parts of the other design that are not placed yet count only near that other design,
-    /// where their positions are known.
+    /// time. Parts of the other design that are not placed yet are included only if the sample time
+    /// is near the t of that design, because their positions are known only there.
     fn there(&self, step: usize, side: Side) -> impl Iterator<Item = &LayeredOutline> {
         let t = self.steps.times()[step];
         let is_near = [1.0 - t, t][side] <= FINE_STEP;
@@ -372,12 +381,13 @@ impl<'a> TransientScene<'a> {
         !is_within && !others.any(|other| around(other.points[0]) != 0)
     }
 
-    /// Returns the part's own position as a seed shape. It moves there with the innermost outline
-    /// around it or, if there is none, with the outlines nearby.
+    /// Returns the part's own position as a seed shape, to which the innermost outline around the
+    /// part carries it. If no outline lies around the part, the outlines nearby carry it.
     fn carried(&self, speck: &TransientPart, life: TimeWindow, film: &Arap) -> DVec2 {
         let (side, here) = (speck.side, speck.ends[speck.side]);
         let begins = begins(speck, life);
-        // Only matched parts are compared, because they have the same order at each sample time.
+        // Only outlines of matched parts are compared, because their lists have the same order at
+        // each sample time.
         let then = &self.outlines[self.steps.before(begins)];
         let now = &self.outlines[[0, self.steps.last()][side]];
         let born = self.born.iter().filter(|born| born.speck.side == side);

@@ -1,4 +1,5 @@
-//! A part that exists in only one design, as a growing seed shape and as a swelling shape.
+//! A part that exists in only one design. It grows from a seed shape, or it swells, that is, grows
+//! in thickness within its outline.
 
 use crate::content::mean_point;
 use crate::correspondence::{PieceMatch, RegionMatch};
@@ -33,7 +34,8 @@ pub(super) struct TransientPart {
     swelling: SwellingProfile,
 }
 
-/// Outlines of a swelling part at each step of thickness, computed on first use.
+/// Outlines of a part that grows in thickness (swells) at each step of thickness, computed on first
+/// use.
 #[derive(Default)]
 struct SwellingProfile {
     depth: OnceLock<f64>,
@@ -95,8 +97,8 @@ impl TransientPart {
         }
     }
 
-    /// Returns the size, relative to full size, when the fraction `share` of the change is
-    /// completed.
+    /// Returns the size of the part relative to full size when the fraction `share` of its change
+    /// of size is completed.
     pub(super) fn size(&self, share: f64) -> f64 {
         let grown = match self.side {
             Side::Source => 1.0 - share,
@@ -113,15 +115,16 @@ impl TransientPart {
         }
     }
 
-    /// Returns positions along the part's own outline if the part were at `place`. A crescent, for
-    /// instance, can grow from its tip around something that lies within it.
+    /// Returns candidate positions of the seed shape along the part's own outline, for a part at
+    /// `place`. A crescent, for instance, can grow from its tip around a shape that lies within its
+    /// curve.
     pub(super) fn own_places(&self, place: DVec2) -> Vec<DVec2> {
         let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
         let step = outer.len().div_ceil(OWN_PLACES).max(1);
         outer.iter().step_by(step).map(|&p| place + p).collect()
     }
 
-    /// Returns the outlines at a centroid and a size relative to full size.
+    /// Returns the outlines of the part for a given centroid and a size relative to full size.
     pub(super) fn at(&self, centre: DVec2, size: f64) -> Vec<LayeredOutline> {
         let placed = |ring: &Vec<DVec2>| ring.iter().map(|&p| centre + p * size).collect();
         let rings = self.rings.iter().map(placed);
@@ -130,7 +133,7 @@ impl TransientPart {
             .collect()
     }
 
-    /// Returns the area enclosed by the smallest of its rings around the point `here` of its
+    /// Returns the area enclosed by the smallest ring of this part around the point `here` of its
     /// design; `None` if no ring encloses that point.
     pub(super) fn size_around(&self, here: DVec2) -> Option<f64> {
         let around = self.rings.iter().filter(|ring| {
@@ -142,23 +145,24 @@ impl TransientPart {
             .min_by(f64::total_cmp)
     }
 
-    /// Returns the vector from the centroid of a growing part to the centroid of a swelling part,
-    /// at the fraction `share` of the change.
+    /// Returns the vector that is added to the centroid of a growing part to obtain the centroid of
+    /// a swelling part with the same motion, when the fraction `share` of the change is completed.
     pub(super) fn off_middle_at(&self, share: f64) -> DVec2 {
         let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
         mean_point(outer) * (self.size(share) - 1.0)
     }
 
-    /// Returns the vector from the position of a swelling part to that of the seed shape that gives
-    /// the same motion. A swelling part is placed by the mean of its outer points, a seed shape by
-    /// its centroid.
+    /// Returns the vector that is added to the position of a swelling part to obtain the centroid
+    /// of the seed shape that gives the same motion. A swelling part is placed by the mean of its
+    /// outer points, a seed shape by its centroid.
     pub(super) fn off_middle(&self) -> DVec2 {
         let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
         mean_point(outer) * (1.0 - self.least)
     }
 
-    /// Returns the outlines of the swelling part at the fraction `share` of the change. `centre` is
-    /// the centroid of the growing part at that time. The thickness is rounded up to the next step.
+    /// Returns the outlines of the swelling part (the part that grows in thickness) at the fraction
+    /// `share` of the change. `centre` is the centroid at that time if the part grew from a seed
+    /// shape instead. The thickness is rounded up to the next step.
     pub(super) fn swollen(&self, centre: DVec2, share: f64) -> Vec<LayeredOutline> {
         let level = (self.size(share) * SIZE_STEPS as f64).ceil();
         let level = level.clamp(0.0, SIZE_STEPS as f64);
@@ -172,13 +176,14 @@ impl TransientPart {
             .collect()
     }
 
-    /// Returns the growth profile of the swelling part; `diameter` is that of the whole design.
+    /// Returns the growth profile of the part if it grows in thickness; `diameter` is that of the
+    /// whole design.
     pub(super) fn swelling(&self, diameter: f64) -> GrowthProfile {
         GrowthProfile::of_steps(|size| self.swelling.level(size, &self.rings), diameter)
     }
 
-    /// Returns the short window of a part that appears or disappears at once, because it collides
-    /// in all longer ones.
+    /// Returns the shortest time window. A part that collides in all longer time windows uses it to
+    /// appear or disappear at once.
     pub(super) fn at_once(&self) -> TimeWindow {
         life(self.side, FINE_STEP)
     }

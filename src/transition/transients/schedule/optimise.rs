@@ -13,22 +13,22 @@ use std::ops::Range;
 /// limit).
 const ROUNDS: u32 = 4;
 
-/// Maximum number of passes that sort windows into reading order (resource limit).
+/// Maximum number of passes that sort time windows into reading order (resource limit).
 const MOST_READ: usize = 100;
 
-/// Number of largest parts whose windows are also optimised in pairs (heuristic).
+/// Number of largest parts whose time windows are also optimised in pairs (heuristic).
 const IN_TWOS: usize = 6;
 
-/// Maximum number of windows that are optimised; all others stay as they are (resource limit).
+/// Maximum number of time windows that are optimised; all others stay as they are (resource limit).
 const PLANNED: usize = 1000;
-/// Collision costs are computed for this many parts (resource limit).
+/// Maximum number of parts or holes whose collision costs are computed (resource limit).
 const PRICED: usize = 100;
 
 impl TransientSchedule {
-    /// Minimises the cost of the schedule over the windows from index `fixed` on.
+    /// Minimises the cost of the schedule over the time windows from index `fixed` on.
     ///
-    /// `prices` returns the collision cost of each candidate window of a part, or an empty list if
-    /// unknown.
+    /// `prices` returns the collision cost of each time window in [`eighths`] for a part, or an
+    /// empty list if unknown.
     ///
     /// # Errors
     /// If the work is cancelled.
@@ -53,8 +53,9 @@ impl TransientSchedule {
         Ok(())
     }
 
-    /// Returns the best of the schedules reached from three starts: all windows [0, 1]; windows
-    /// that grow with the rank; all windows a quarter long, at the part's own design.
+    /// Returns the best of the schedules reached from three starts: all time windows [0, 1];
+    /// lengths proportional to the rank of the part; all lengths ¼. The time windows of the last
+    /// two start at t = 0 for parts of the source and end at t = 1 for parts of the target.
     fn settled(&self, free: &Range<usize>) -> Self {
         let mut best = self.started(free, |_| 1.0).improved(free);
         let others: [&dyn Fn(f64) -> f64; 2] = [&|share| share, &|_| 0.25];
@@ -73,8 +74,8 @@ impl TransientSchedule {
         best
     }
 
-    /// Returns a starting schedule. `long` returns the length of a window from the part's rank
-    /// within its design, as a fraction in (0, 1].
+    /// Returns a starting schedule. `long` returns the length of a time window from the part's rank
+    /// among the parts of its design, as a fraction in (0, 1].
     fn started(&self, free: &Range<usize>, long: impl Fn(f64) -> f64) -> Self {
         let mut all = self.clone();
         for side in Side::BOTH {
@@ -88,7 +89,7 @@ impl TransientSchedule {
         all
     }
 
-    /// Optimises one window after the other until nothing improves.
+    /// Optimises one time window after the other until nothing improves, at most [`ROUNDS`] times.
     pub(super) fn improved(mut self, free: &Range<usize>) -> Self {
         for _ in 0..ROUNDS {
             let mut is_better = false;
@@ -104,15 +105,16 @@ impl TransientSchedule {
         self
     }
 
-    /// Returns the cheapest window of a part while all other windows are fixed; the first of
-    /// equally cheap ones.
+    /// Returns the time window of a part with the lowest cost while all other time windows are
+    /// fixed; the first of equally cheap ones.
     fn best_time(&self, k: usize) -> TimeWindow {
         let costs = self.costs(k).into_iter();
         let least = costs.min_by(|(a, _), (b, _)| a.total_cmp(b));
         least.map_or(self.coming[k].life, |(_, life)| life)
     }
 
-    /// Optimises the windows of the largest parts in pairs. Returns whether the cost decreased.
+    /// Optimises the time windows of the largest parts in pairs. Returns whether the cost
+    /// decreased.
     pub(super) fn improve_twos(&mut self, free: &Range<usize>) -> bool {
         let size = |k: usize| self.coming[k].growth.at_size(1.0)[1].abs();
         let mut largest: Vec<usize> = free.clone().collect();
@@ -137,8 +139,8 @@ impl TransientSchedule {
         is_better
     }
 
-    /// Swaps windows within the holes of a design, and within its parts, such that a word appears
-    /// and disappears letter by letter, as long as the cost rises by at most [`ORDERLY`].
+    /// Swaps time windows between the holes of a design, and between its parts, such that a word
+    /// appears and disappears letter by letter, as long as the cost rises by at most [`ORDERLY`].
     fn in_order(mut self, free: &Range<usize>) -> Self {
         let most = self.cost() + ORDERLY;
         for side in Side::BOTH {
@@ -161,7 +163,8 @@ impl TransientSchedule {
         self
     }
 
-    /// Sorts parts from left to right, or from top to bottom if together they are higher than wide.
+    /// Sorts parts from left to right, or from top to bottom if the box around all of them is
+    /// higher than wide.
     fn as_read(&self, mut some: Vec<usize>) -> Vec<usize> {
         let places = some.iter().map(|&k| self.coming[k].place);
         let size = Bounds::of(places).map_or(DVec2::ZERO, |bounds| bounds.size());
@@ -173,8 +176,8 @@ impl TransientSchedule {
         some
     }
 
-    /// Swaps the windows of two parts if the first is then visible longer and the cost stays within
-    /// `most`. Returns whether it did.
+    /// Swaps the time windows of two parts if the first part is then visible longer and the cost
+    /// stays within `most`. Returns whether they were swapped.
     fn exchange(&mut self, pair: &[usize], most: f64) -> bool {
         let [a, b] = [0, 1].map(|k| self.coming[pair[k]].life);
         if absence(a) <= absence(b) {

@@ -1,4 +1,5 @@
-//! Tests schedules with combs side by side.
+//! Tests schedules of several combs in a row. The outline of a comb turns much, so the overshoot of
+//! turning matters.
 
 use super::optimise::absence;
 use super::*;
@@ -86,8 +87,8 @@ fn designs_exchanged_give_the_times_reversed() {
 #[test]
 fn times_that_are_not_free_are_planned_around() {
     let sides = [Side::Source, Side::Target, Side::Target];
-    // Target parts are free of collisions only in the last quarter; the window of the source part
-    // is fixed.
+    // Target parts are free of collisions only in the last quarter; the time window of the source
+    // part is fixed.
     let price = |life: TimeWindow| f64::from(u8::from(life.from < 0.75));
     let mut all = combs(&sides);
     all.set(0, life(Side::Source, 0.5));
@@ -96,7 +97,8 @@ fn times_that_are_not_free_are_planned_around() {
     let lives = lives(&all);
     assert_eq!(lives[0], life(Side::Source, 0.5));
     assert!(lives[1..].iter().all(|life| life.from >= 0.75), "{lives:?}");
-    // The collision costs are cleared afterwards.
+    // Collision costs are cleared after optimisation, so all costs are below the collision cost of
+    // 1.
     assert!(all.costs(1).iter().all(|(cost, _)| *cost < 1.0));
 }
 
@@ -108,8 +110,8 @@ fn two_change_places_where_neither_can_alone() {
         all.set(1, life(Side::Target, second));
         all.cost()
     };
-    // Each window is a quarter or three quarters long. A long second window has a cost, but it is
-    // cheaper than two short or two long windows.
+    // Each time window is a quarter or three quarters long. A long second time window has a cost,
+    // but it is cheaper than two short or two long ones.
     let [short, long, now] = [[0.25, 0.25], [0.75, 0.75], [0.25, 0.75]].map(&mut take);
     let dear = (short.min(long) - now) / 2.0;
     assert!(dear > 0.01, "{dear}");
@@ -152,7 +154,7 @@ fn one_that_gets_another_time_is_known_of_by_the_others() {
     let before = all.costs(1);
     all.set(0, life(Side::Source, 1.0));
     assert_ne!(all.costs(1), before);
-    // The short windows come last, whatever they would save.
+    // The short time windows come last, even if they reduce the overshoot.
     let ranked = all.ranked(1);
     let times = eighths(Side::Target).count();
     assert_eq!(ranked.len(), times + JUMPS.len());

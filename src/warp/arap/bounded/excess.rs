@@ -1,13 +1,15 @@
-//! Measures by how much a face exceeds the distortion bound, and computes the change that restores
-//! it.
+//! Measures by how much a face exceeds the distortion bound, and computes the change of its local
+//! map that restores the bound.
 //!
-//! A face that is flattened conformally is distorted slightly more than its metric, and the maps
-//! around a hole do not quite fit together. If the distortion of a face, seen from either design,
-//! exceeds that of the worst face of its sheet between the designs, its map is replaced by the
-//! nearest map within the bound. All maps are then integrated again, for some rounds: alternating
-//! projections (Kovalsky, Aigerman, Basri, Lipman, "Large-scale bounded distortion mappings", 2015,
-//! with the matrix at hand). Faces within the bound are unchanged. The bound is soft: it is
-//! exceeded smoothly, by at most [`SOFT`], so that the motion has no kinks.
+//! The bound of a sheet is the largest distortion of its faces from source to target. At other
+//! times a face can exceed the bound, because a face that is flattened conformally is distorted
+//! slightly more than its metric, and because the local maps around a hole do not quite fit
+//! together. If the distortion of a face relative to either design exceeds the bound, its local map
+//! is replaced by the nearest map within the bound. The vertex positions are then computed again
+//! from all local maps. This is repeated several times: alternating projections (Kovalsky,
+//! Aigerman, Basri, Lipman, "Large-scale bounded distortion mappings", 2015, here with the factored
+//! matrix of the energy). Faces within the bound are unchanged. The bound is soft: it is exceeded
+//! smoothly, by at most [`SOFT`], so that the motion has no kinks.
 
 use super::layout::BoundedFace;
 use crate::geometry::DMat2;
@@ -19,12 +21,14 @@ const SOFT: f64 = 0.01;
 /// Relative excess that is ignored (tolerance: rounding).
 const NONE: f64 = 1e-12;
 
-/// A map, split into a similarity (rotation and scaling) and an anti-similarity (with reflection).
+/// A linear map, split into a similarity (rotation and scaling) and an anti-similarity (with
+/// reflection).
 #[derive(Clone, Copy)]
 struct Halves {
     turning: DMat2,
     flipping: DMat2,
-    /// Norms of the two: half the sum and half the difference of the singular values.
+    /// Norms of `turning` and `flipping`: half the sum and half the difference of the singular
+    /// values.
     sizes: [f64; 2],
 }
 
@@ -40,7 +44,7 @@ impl Halves {
         }
     }
 
-    /// Returns the ratio of the singular values; infinite if the map turns faces over.
+    /// Returns the ratio of the singular values; infinite if the linear map turns faces over.
     fn sheared(self) -> f64 {
         let [turning, flipping] = self.sizes;
         match turning - flipping {
@@ -50,12 +54,13 @@ impl Halves {
     }
 }
 
-/// Returns the distortion of a map: the ratio of its singular values.
+/// Returns the distortion of a linear map: the ratio of its singular values.
 pub(super) fn sheared(map: DMat2) -> f64 {
     Halves::of(map).sheared()
 }
 
-/// Returns the change of a map whose distortion exceeds `most`; `None` if it does not.
+/// Returns the change that brings a linear map whose distortion exceeds `most` back to this bound;
+/// `None` if the distortion does not exceed `most`.
 fn back(map: DMat2, most: f64) -> Option<DMat2> {
     let halves = Halves::of(map);
     let beyond = halves.sheared() / most - 1.0;
@@ -65,7 +70,7 @@ fn back(map: DMat2, most: f64) -> Option<DMat2> {
     }
     let soft = (beyond.powi(-2) + SOFT.powi(-2)).sqrt().recip();
     let ratio = most * (1.0 + soft);
-    // The nearest singular values with this ratio.
+    // The singular values with this ratio that are nearest to those of the map.
     let (large, small) = (turning + flipping, turning - flipping);
     let small = (ratio * large + small) / (ratio * ratio + 1.0);
     let large = ratio * small;
@@ -76,8 +81,9 @@ fn back(map: DMat2, most: f64) -> Option<DMat2> {
     Some(halves.turning * by[0] + halves.flipping * by[1])
 }
 
-/// Returns the change of the map of a face that exceeds the distortion `most`, seen from source or
-/// target; the mean of both changes if it exceeds it in both.
+/// Returns the change that brings the local map of a face back to the distortion bound `most`;
+/// `None` if the face satisfies the bound. The distortion is measured relative to the source and
+/// relative to the target. If both exceed the bound, the result is the mean of the two changes.
 pub(super) fn taken_back(face: &BoundedFace, map: DMat2, most: f64) -> Option<DMat2> {
     let from_source = back(map, most);
     let from_target = back(map * face.back, most).map(|by| by * face.map.matrix());

@@ -1,15 +1,16 @@
-//! Flattens a sheet conformally.
+//! Flattens a sheet (a set of faces connected by shared edges) conformally.
 //!
 //! Each vertex has a factor e^u. The squared length of an edge becomes l² e^(u_i + u_j), and the
 //! factors are chosen such that the angles around each vertex sum to 2π.
 //!
 //! Springborn, Schröder, Pinkall, "Conformal equivalence of triangle meshes" (2008), sections 3 and
-//! 4: these u minimise a convex energy. Its gradient is the missing angle at each vertex, its
-//! Hessian is half the cotangent Laplacian. Newton's method halves each step until the energy does
-//! not rise again before its end. If the lengths of a face violate the triangle inequality, its
-//! angles are π, 0 and 0, which keeps the energy convex. A few such faces count as flat, although
-//! they are no triangles; they are corrected with the faces that exceed the distortion bound. With
-//! u = 0 along the outer boundary, sizes change least.
+//! 4: these u minimise a convex energy. Its gradient is the missing angle at each vertex: 2π minus
+//! the sum of the angles there. Its Hessian is half the cotangent Laplacian. Each Newton step is
+//! halved until the energy, at the end of the step, rises at most half as steeply as it falls at
+//! the start. If the lengths of a face violate the triangle inequality, its angles are π, 0 and 0,
+//! which keeps the energy convex. A few such faces count as flat, although they are no triangles;
+//! they are corrected with the faces that exceed the distortion bound. With u = 0 along the outer
+//! boundary, sizes change least.
 //!
 //! Guaranteed: nothing is allocated; the method terminates; the result depends only on the sheet
 //! and t. Not guaranteed: convergence, which is reported.
@@ -17,11 +18,13 @@
 use super::sheet::{FIXED, FaceSheet};
 use crate::numerics::PatternWorkspace;
 
-/// Largest missing angle at a vertex of a flat sheet, in radians (tolerance: positions are then as
-/// accurate, and Newton's method has begun to converge quadratically).
+/// Missing angle (required minus actual sum of the angles at a vertex), in radians, up to which a
+/// sheet counts as flat (tolerance: positions are then as accurate, and Newton's method has begun
+/// to converge quadratically).
 const FLAT: f64 = 1e-9;
 
-/// Largest missing angle, in radians, at which no further step is made (tolerance: rounding).
+/// Missing angle (required minus actual sum of the angles at a vertex), in radians, at which
+/// Newton's method stops (tolerance: rounding).
 const ENOUGH: f64 = 1e-13;
 
 /// Maximum number of Newton steps (resource limit).
@@ -30,7 +33,7 @@ const STEPS: u32 = 60;
 const HALVED: u32 = 40;
 
 /// Dot product and cross product of the two sides that meet at a corner of a face. The cross
-/// product is twice the area.
+/// product is twice the area of the face.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CornerProducts {
     pub dot: f64,
@@ -40,9 +43,10 @@ pub(super) struct CornerProducts {
 /// Memory to flatten a sheet, and the result.
 #[derive(Debug)]
 pub(super) struct Flattening {
-    /// For each unknown, the logarithm u of its factor.
+    /// For each unknown scale factor e^u of a vertex or hole, its logarithm u.
     u: Vec<f64>,
-    /// For each unknown, its missing angle in radians.
+    /// For each unknown, the missing angle in radians: the required minus the actual sum of the
+    /// angles at its vertices.
     lack: Vec<f64>,
     step: Vec<f64>,
     trial: Vec<f64>,
@@ -65,12 +69,12 @@ impl Flattening {
         }
     }
 
-    /// Returns the corners of all faces after the last flattening.
+    /// Returns the dot and cross products at the corners of all faces after the last flattening.
     pub(super) fn corners(&self) -> &[[CornerProducts; 3]] {
         &self.corners
     }
 
-    /// Flattens a sheet at t. Returns whether it is flat.
+    /// Flattens a sheet at t. Returns whether the missing angles are at most [`FLAT`].
     pub(super) fn flatten(&mut self, sheet: &FaceSheet, t: f64) -> bool {
         self.u.fill(0.0);
         self.trial.fill(0.0);
@@ -93,7 +97,8 @@ impl Flattening {
         off <= FLAT
     }
 
-    /// Computes the Newton step. Returns whether there is one.
+    /// Computes the Newton step. Returns `false` if there is no matrix or the matrix cannot be
+    /// factored.
     fn set_step(&mut self, sheet: &FaceSheet) -> bool {
         let (Some(pattern), Some(matrix)) = (&sheet.pattern, &mut self.matrix) else {
             return false;
@@ -120,8 +125,9 @@ impl Flattening {
         pattern.solve(matrix, &mut self.step)
     }
 
-    /// Moves along the step, as far as the energy decreases. Returns the largest missing angle
-    /// then; `None` if the energy does not decrease.
+    /// Moves the unknowns along the Newton step, which is halved until the energy at its end hardly
+    /// rises. Returns the largest missing angle at the new position, in radians; `None` if the step
+    /// cannot be halved often enough.
     fn go(&mut self, sheet: &FaceSheet, t: f64) -> Option<f64> {
         let slope = self.slope();
         let mut length = 1.0;
@@ -145,8 +151,8 @@ impl Flattening {
         self.lack.iter().zip(&self.step).map(|(a, b)| a * b).sum()
     }
 
-    /// Computes corners and missing angles for the factors in `trial`. Returns the largest missing
-    /// angle.
+    /// Computes the corner products and the missing angles for the logarithms in `trial`. Returns
+    /// the largest missing angle in radians.
     fn measure(&mut self, sheet: &FaceSheet, t: f64) -> f64 {
         for (scale, u) in self.scales.iter_mut().zip(&self.trial) {
             *scale = u.exp();
@@ -177,7 +183,7 @@ impl Flattening {
     }
 }
 
-/// Returns the corners of a face with the given squared side lengths.
+/// Returns the dot and cross products at the corners of a face with the given squared side lengths.
 fn corners_of(squared: [f64; 3]) -> [CornerProducts; 3] {
     let cross = twice_area(squared.map(f64::sqrt));
     [0, 1, 2].map(|k| CornerProducts {

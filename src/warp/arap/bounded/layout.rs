@@ -1,4 +1,5 @@
-//! Lays out flattened faces in the plane and computes the maps from the source to them.
+//! Lays out flattened faces in the plane, and computes the linear map of each face from the source
+//! to its flattened shape.
 
 use super::flat::CornerProducts;
 use super::sheet::FaceSheet;
@@ -10,15 +11,16 @@ use crate::warp::arap::assembly::FaceMap;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::warp::arap) struct BoundedFace {
     pub(super) corners: [u32; 3],
-    /// Map from source to target.
+    /// Linear map from source to target, as a rotation and a stretch.
     pub(super) map: PolarDecomposition,
     /// Gradients of the hat functions of the second and third corner in the source.
     pub(super) gradients: DMat2,
-    /// W times these gradients.
+    /// Product of the face's weight matrix W and `gradients`.
     weighted: DMat2,
     /// Linear map from target to source.
     pub(super) back: DMat2,
-    /// Weight of the face in the rotation of the sheet; the same for both designs.
+    /// Weight of the face in the mean rotation of its sheet: twice the geometric mean of its areas
+    /// in the two designs.
     mass: f64,
 }
 
@@ -39,14 +41,15 @@ impl BoundedFace {
         }
     }
 
-    /// Returns the linear map that is defined by the vectors at the corners. If `of` returns the
-    /// deviations of the vertices, this is the deviation of the face's map.
+    /// Returns the Jacobian, on the source face, of the linear function with the values `of` at the
+    /// corners. For the deviations of the vertices, this is the deviation of the face's local map.
     pub(in crate::warp::arap) fn strayed(&self, of: impl Fn(u32) -> DVec2) -> DMat2 {
         let [first, second, third] = self.corners.map(of);
         DMat2::from_cols(second - first, third - first) * self.gradients.transpose()
     }
 
-    /// Adds M W g to the forces on the corners, where M is `map`.
+    /// Adds the force M W g of the face to its corners. M is `map`, W the face's weight matrix, and
+    /// g are the gradients of its hat functions.
     pub(in crate::warp::arap) fn pull(&self, map: DMat2, forces: &mut [DVec2]) {
         let [first, second, third] = self.corners.map(|v| v as usize);
         let pulled = map * self.weighted;
@@ -69,7 +72,8 @@ fn first_length([first, second, _]: &[CornerProducts; 3]) -> f64 {
     (first.dot + second.dot).sqrt()
 }
 
-/// Computes the map of each face. The first face has its first side along x.
+/// Computes the linear map of each face from the source to its flattened shape. The first face has
+/// its first side along x.
 pub(super) fn laid_out(
     sheet: &FaceSheet,
     faces: &[BoundedFace],
@@ -85,7 +89,7 @@ pub(super) fn laid_out(
                 let reached = sheet.reached[k];
                 let before = maps[reached.from as usize];
                 let there = [before.x_axis, before.y_axis - before.x_axis, -before.y_axis];
-                // The same side, traversed in the opposite direction.
+                // The side shared with the earlier face, traversed in the direction of this face.
                 let side = -there[reached.there as usize];
                 conjugate(own[reached.here as usize])
                     .rotate(side)
@@ -99,7 +103,8 @@ pub(super) fn laid_out(
     }
 }
 
-/// Rotates all maps by one angle, such that on average they rotate as in the polar homotopy.
+/// Rotates the linear maps of all faces by one angle, such that on average they rotate as in the
+/// polar homotopy.
 pub(super) fn turn_along(faces: &[BoundedFace], t: f64, maps: &mut [DMat2]) {
     let mut sum = DVec2::ZERO;
     for (face, &map) in faces.iter().zip(maps.iter()) {
@@ -114,7 +119,7 @@ pub(super) fn turn_along(faces: &[BoundedFace], t: f64, maps: &mut [DMat2]) {
     maps.iter_mut().for_each(|map| *map = turn * *map);
 }
 
-/// Returns the rotation of a map, as a unit vector.
+/// Returns the rotation of a linear map, as a unit vector.
 fn rotation(map: DMat2) -> DVec2 {
     let (x, y) = (map.x_axis, map.y_axis);
     DVec2::new(x.x + y.y, x.y - y.x).normalize_or(DVec2::X)

@@ -1,8 +1,9 @@
 //! Sheets of faces that share edges, and the unknown scale factors of their vertices.
 //!
-//! Each vertex has a factor that scales the lengths around it. It is 1 along the outer boundary.
-//! All vertices around a hole have one factor in common, which makes the angles around the hole
-//! close as in the designs. A vertex at which several fans of faces touch counts once per fan.
+//! Each vertex has a factor that scales the lengths around it. The factor is 1 along the outer
+//! boundary. All vertices around a hole have one factor in common, so that the boundary of the hole
+//! turns by the same total angle as in the designs. A vertex at which several fans of faces touch
+//! counts once per fan; the faces of a fan are connected by edges at the vertex.
 
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
@@ -24,14 +25,16 @@ pub(super) struct FaceSheet {
     /// For each face, the squared lengths of its sides in source and target; side k runs from
     /// corner k to the next.
     pub lengths: Vec<[[f64; 3]; 2]>,
-    /// For each face, the indices of the unknowns at its corners, or [`FIXED`].
+    /// For each face, the indices of the unknown scale factors at its corners; [`FIXED`] where the
+    /// factor is 1.
     pub unknowns: Vec<[u32; 3]>,
-    /// For each unknown, the sum of its angles when the sheet is flat, in radians.
+    /// For each unknown scale factor, the required sum, in radians, of the angles at its vertices.
     pub sums: Vec<f64>,
-    /// Pattern of the matrix; `None` if there are no unknowns or the memory does not suffice.
+    /// Sparsity pattern of the matrix of Newton's method; `None` if there are no unknowns or the
+    /// matrix would need too much memory.
     pub pattern: Option<PatternCholesky>,
-    /// For each side of each face, the indices of the matrix entries of its first end, its second
-    /// end, and both.
+    /// For each side of each face, the indices of three matrix entries: the diagonal entries of the
+    /// first and the second end, and the entry that combines both ends; [`FIXED`] if absent.
     pub entries: Vec<[[u32; 3]; 3]>,
 }
 
@@ -40,9 +43,9 @@ pub(super) struct FaceSheet {
 pub(super) struct SheetTreeLink {
     /// Index of the earlier face within the sheet.
     pub from: u32,
-    /// Side of the earlier face.
+    /// Index of the shared side in the earlier face.
     pub there: u8,
-    /// Side of the face that was reached.
+    /// Index of the shared side in the face that was reached.
     pub here: u8,
 }
 
@@ -130,11 +133,12 @@ fn walk(
     (faces, reached)
 }
 
-/// The unknowns of a sheet.
+/// Numbering of the unknown scale factors of a sheet.
 struct Numbering {
-    /// For each fan of the mesh, its unknown; only fans of this sheet have one.
+    /// For each fan of the mesh, the index of its unknown scale factor; [`FIXED`] on the outer
+    /// boundary and in other sheets.
     unknown: Vec<u32>,
-    /// For each unknown, the sum of its angles when the sheet is flat, in radians.
+    /// For each unknown scale factor, the required sum, in radians, of the angles at its vertices.
     sums: Vec<f64>,
 }
 
@@ -158,7 +162,7 @@ impl Numbering {
         let angles = angles(mesh, fans, faces);
         let turning = |rim: &[u32]| -> f64 {
             let turns = rim.iter().map(|&fan| PI - angles[fan as usize]);
-            // The sum is rounded to whole turns.
+            // The exact sum is a whole number of turns; rounding to it removes the numerical error.
             TAU * (turns.sum::<f64>() / TAU).round()
         };
         let turnings: Vec<f64> = rims.iter().map(|rim| turning(rim)).collect();
@@ -221,7 +225,8 @@ fn lengths(mesh: &CompatibleMesh, face: usize) -> [[f64; 3]; 2] {
     })
 }
 
-/// Returns the pattern of the matrix of a sheet, and the indices of the entries of each side.
+/// Returns the sparsity pattern of the matrix of a sheet, and the indices of the matrix entries of
+/// each side.
 fn pattern(
     unknowns: usize,
     of_corners: &[[u32; 3]],
@@ -239,7 +244,7 @@ fn pattern(
         .map(|corners| {
             [0, 1, 2].map(|k| {
                 let [i, j] = [corners[k], corners[(k + 1) % 3]];
-                // Both ends have the same factor, so this side couples nothing.
+                // Both ends have the same factor, so the matrix entries of this side would cancel.
                 if i == j {
                     return [FIXED; 3];
                 }

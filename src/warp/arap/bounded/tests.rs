@@ -12,7 +12,8 @@ use std::f64::consts::TAU;
 
 const N: u32 = 12;
 
-/// A square plate of N × N cells about the origin, with side length 2, and its image.
+/// Returns a mesh whose source is a square plate of N × N cells about the origin, with side length
+/// 2, and whose target is the image of the plate under `image`.
 fn plate(image: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
     let point =
         |i: u32, j: u32| DVec2::new(f64::from(i), f64::from(j)) * (2.0 / f64::from(N)) - 1.0;
@@ -32,7 +33,8 @@ fn plate(image: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
     CompatibleMesh::new(faces.collect(), source, target, vec![]).expect("positive")
 }
 
-/// A ring of rows of triangles about the origin, and its image.
+/// Returns a mesh whose source is an annulus about the origin, divided into rows of triangles, and
+/// whose target is the image of the annulus under `image`.
 fn ring(image: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
     const AROUND: u32 = 48;
     const ROWS: u32 = 6;
@@ -80,7 +82,8 @@ fn sheared(mesh: &CompatibleMesh, places: &[DVec2]) -> f64 {
     sheared.fold(0.0, f64::max)
 }
 
-/// Returns the largest distortion during the motion, relative to that of the target.
+/// Returns the largest distortion of a face during the motion, divided by the largest distortion in
+/// the target.
 fn by_end(mesh: &CompatibleMesh, film: &Arap) -> f64 {
     let mut placer = film.placer();
     let worst = (0..=32).map(|step| {
@@ -180,7 +183,7 @@ fn angles_around_a_hole_close() {
 
 #[test]
 fn a_needle_keeps_the_bound() {
-    // The neighbours of such a thin face hardly affect it.
+    // A vertex is moved close to the opposite side of one of its faces, which becomes a needle.
     let even = ring(|p| p);
     let (inner, next) = (12, 13);
     let near = |points: &[DVec2], share: f64| {

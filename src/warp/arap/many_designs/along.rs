@@ -29,8 +29,8 @@ impl Debug for AlongBlend {
 }
 
 impl AlongBlend {
-    /// Creates the path with the given weights. They are requested in any order of t, also outside
-    /// [0, 1].
+    /// Creates the interpolation along the path on which the blend at t has the given `weights`.
+    /// `weights` is called with t in any order, also outside [0, 1].
     #[must_use]
     pub fn new(
         blend: ArapBlend,
@@ -49,7 +49,8 @@ impl AlongBlend {
         }
     }
 
-    /// Returns the mesh with the positions at t = 0 and t = 1, where faces may be folded.
+    /// Returns the mesh whose source and target are the blends at t = 0 and t = 1. Faces may be
+    /// folded in these blends.
     #[must_use]
     pub fn mesh(&self) -> &CompatibleMesh {
         &self.ends

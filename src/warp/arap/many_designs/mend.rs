@@ -20,21 +20,21 @@ const ROUNDS: usize = 12;
 /// Maximum number of further rounds that also move vertices on outlines (resource limit).
 const PUSHES: usize = 20;
 
-/// Twice the area of a face that was pushed open, divided by the sum of its squared side lengths
-/// (heuristic).
+/// Twice the area of a folded face after it is opened, divided by the sum of its squared side
+/// lengths (heuristic).
 const THIN: f64 = 1e-3;
 
-/// Vertices with more faces are not moved (resource limit: the number of triples grows with the
-/// cube).
+/// Maximum number of faces around a vertex; vertices with more faces are not moved (resource limit:
+/// the number of triples grows with the cube).
 const MOST_FACES: usize = 16;
 
 /// The faces around each interior vertex.
 #[derive(Clone, Debug)]
 pub(super) struct Mender {
-    /// For each vertex, the index in `around` at which its faces start, and at the end the length
-    /// of `around`. Vertices on a boundary or a bar have no faces here.
+    /// For each vertex, the index in `around` of its first face; finally, the length of `around`.
+    /// Vertices on a boundary or a bar have empty lists.
     starts: Vec<u32>,
-    /// Indices of the faces, vertex by vertex.
+    /// Indices of the faces around each vertex, vertex by vertex.
     around: Vec<u32>,
 }
 
@@ -78,7 +78,7 @@ impl Mender {
                 }
                 for &v in face {
                     self.settle(v, faces, places);
-                    // The neighbours may have to make room first.
+                    // The vertex may have no room to move until its neighbours have moved.
                     for &f in self.faces_of(v) {
                         let others = faces[f as usize];
                         others.iter().for_each(|&w| self.settle(w, faces, places));
@@ -97,13 +97,14 @@ impl Mender {
         &self.around[from..to]
     }
 
-    /// Moves a vertex to the position where the smallest of its faces is largest.
+    /// Moves a vertex to the position that maximises the smallest area of its faces.
     fn settle(&self, v: u32, faces: &[[u32; 3]], places: &mut [DVec2]) {
         let own = self.faces_of(v);
         if own.len() < 3 || own.len() > MOST_FACES {
             return;
         }
-        // Twice the area of a face is n · p + c, where p is the position of the vertex.
+        // Twice the area of a face is n · p + c, where p is the position of the vertex. `lines`
+        // holds n and c of each face.
         let mut lines = [DVec3::ZERO; MOST_FACES];
         for (line, &f) in lines.iter_mut().zip(own) {
             let face = faces[f as usize];
@@ -159,10 +160,11 @@ fn is_folded(places: &[DVec2], face: [u32; 3]) -> bool {
     orient2d(a, b, c) <= 0.0
 }
 
-/// Returns the position of the vertex at which three faces have equal area; `None` if there is none
-/// or many.
+/// Returns the position of a vertex at which three of its faces have equal area; `None` if this
+/// position does not exist or is not unique. Each argument holds n and c of a face with twice the
+/// area n · p + c, where p is the position.
 fn level(a: DVec3, b: DVec3, c: DVec3) -> Option<DVec2> {
-    // n · p − r = −c for each of the three, where r is twice the common area.
+    // Solves n · p − r = −c for the position p and for r, twice the common area.
     let row = |line: DVec3| DVec3::new(line.x, line.y, -1.0);
     let matrix = DMat3::from_cols(row(a), row(b), row(c)).transpose();
     if matrix.determinant() == 0.0 {

@@ -1,4 +1,5 @@
-//! Positions of the connected parts of many designs, which the energy leaves open.
+//! Positions of the connected parts in a blend of many designs. The energy leaves them
+//! undetermined.
 //!
 //! As for two designs, the parts move around the centroid of the whole design as it rotates.
 
@@ -10,16 +11,16 @@ use crate::geometry::{DMat2, DVec2, twice_signed_area};
 pub(super) struct BlendParts {
     /// For each vertex, the index of its part.
     pub of_vertex: Vec<u32>,
-    /// For each vertex, its fraction of the mass of its part.
+    /// For each vertex, its mass as a fraction of the mass of its part.
     shares: Vec<f64>,
     /// For each design, its rotation relative to a common orientation, in radians.
     angles: Vec<f64>,
-    /// For each part, and within it each design: the offset of the part's centroid from the
-    /// centroid of the whole design, rotated back to the common orientation.
+    /// For each part, one entry per design: the offset of the part's centroid from the centroid of
+    /// the whole design, rotated back to the common orientation.
     turned: Vec<DVec2>,
 }
 
-/// Returns Σ w_j p_j.
+/// Returns the sum of `places`, each multiplied by its weight.
 pub(super) fn blended(weights: &[f64], places: &[DVec2]) -> DVec2 {
     weights.iter().zip(places).map(|(&w, &p)| p * w).sum()
 }
@@ -97,8 +98,9 @@ impl BlendParts {
         self.turned.len() / self.angles.len()
     }
 
-    /// Computes the shift of each part that must be added to `deviation`. It removes the part's
-    /// mean deviation and moves the part around the centroid of the whole design as it rotates.
+    /// Computes the translation of each part that must be added to `deviation`. It removes the
+    /// part's mean deviation, and moves the part around the centroid of the whole design as the
+    /// design rotates.
     pub fn shifts(
         &self,
         weights: &[f64],
@@ -111,8 +113,8 @@ impl BlendParts {
             .iter_mut()
             .zip(self.turned.chunks_exact(weights.len()))
         {
-            // Computed by the same operations as the blended offset, so that both are equal in a
-            // design.
+            // The same operations as for the blended offset make both exactly equal if the blend is
+            // a design.
             let ends = turned.iter().zip(&self.angles).zip(weights);
             let straight: DVec2 = ends
                 .map(|((&end, &angle), &w)| DMat2::from_angle(angle) * end * w)

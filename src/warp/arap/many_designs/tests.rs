@@ -100,7 +100,7 @@ fn parts_are_carried_about_the_whole() {
 
 #[test]
 fn from_a_fold_it_goes_towards_the_nearest_design_until_there_is_none() {
-    // Far outside the designs, where folds cannot be avoided.
+    // Uses weights far outside [0, 1], for which folds cannot be avoided.
     let family = family(&THREE);
     let blend = ArapBlend::build(&family, &Silent).expect("a blend");
     let mut placer = blend.placer();

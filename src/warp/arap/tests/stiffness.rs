@@ -55,7 +55,7 @@ fn a_heavier_face_follows_its_local_map_more_closely() {
     assert!(error_of(9, 100.0) < 0.5 * error_of(9, 1.0));
 }
 
-/// Returns two triangles of the same size, connected by a bar.
+/// Returns two triangles of the same size, connected by a bar of the given length.
 fn triangles_with_bar(length: f64) -> CompatibleMesh {
     let corners = |x: f64| [(x, 0.0), (x + 1.0, 0.0), (x, 1.0)].map(DVec2::from);
     let source = [corners(0.0), corners(length)].concat();
@@ -72,7 +72,7 @@ fn a_ridge_is_reported() {
     let ridge = |mesh| Arap::build(&mesh, &options, &Silent).unwrap().ridge();
     assert_eq!(ridge(bent_pair()), None);
     assert_eq!(ridge(triangles_with_bar(10.0)), None);
-    // Rounding loses the bar's stiffness next to that of the second triangle.
+    // The bar is so long that rounding loses its stiffness next to the stiffness of the triangle.
     let (share, vertex) = (1e-13, 3);
     assert_eq!(
         ridge(triangles_with_bar(1e10)),
@@ -116,9 +116,9 @@ fn a_transient_part_waits_and_moves_with_the_whole() {
     assert_eq!(at(&arap, 1.0), mesh.target());
     let length = |positions: &[DVec2]| positions[8].distance(positions[12]);
     assert!(length(&at(&arap, 0.75)) < 3e-4);
-    // The part has half its size after a third of its window.
+    // The part has half its size after a third of its time window.
     assert!((length(&at(&arap, 5.0 / 6.0)) - 1.0).abs() < 1e-3);
-    // While it waits, the part rotates with the others about their centroid.
+    // Before its time window, the part rotates with the other parts about their common centroid.
     let from_first_part = |positions: &[DVec2]| positions[8].distance(positions[0]);
     let waiting = from_first_part(&at(&arap, 0.5));
     assert!((waiting - from_first_part(mesh.source())).abs() < 1e-3);
@@ -129,7 +129,8 @@ fn a_transient_part_waits_and_moves_with_the_whole() {
 
 #[test]
 fn nearly_degenerate_faces_keep_their_stiffness() {
-    // A fan over a nearly straight line; in the source its curvature is close to rounding.
+    // A fan of faces over a nearly straight polyline, whose curvature in the source is close to
+    // rounding.
     let along = DVec2::new(0.31, 0.17);
     let fan = |bend: f64| -> Vec<DVec2> {
         let at = |i: u32| along * f64::from(i) - along.perp() * (bend * f64::from(i * (8 - i)));
@@ -139,7 +140,9 @@ fn nearly_degenerate_faces_keep_their_stiffness() {
     let mesh = CompatibleMesh::new(faces, fan(1e-13), fan(0.1), vec![]).unwrap();
     let arap = Arap::build(&mesh, &ArapOptions::default(), &Silent).unwrap();
     assert_eq!(arap.ridge(), None);
-    // Diagonal entry of the middle vertex: Σ ½ (A |∇φ_A|² + B |∇φ_B|²) over its faces.
+    // Expected diagonal entry of the middle vertex: the sum over its faces of ½ (A |∇φ_A|² + B
+    // |∇φ_B|²). A and B are the areas of a face in source and target, and φ_A and φ_B are the hat
+    // functions of the vertex.
     let expected: f64 = [mesh.source(), mesh.target()]
         .iter()
         .flat_map(|at| {
