@@ -171,6 +171,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn limbs_match_however_they_bend() {
         let straight = limb(|_| 0.0);
         let bent = limb(|t| if t < 0.5 { 0.09 } else { -0.09 });

@@ -188,6 +188,7 @@ fn a_shape_matches_itself_under_any_similarity() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn other_starting_points_and_resampling_match_within_a_sample() {
     for shape in [shoe(), blob(140, 0.0), spiral(1.5, 60)] {
         let n = shape.points().len();
@@ -204,6 +205,7 @@ fn other_starting_points_and_resampling_match_within_a_sample() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn resampled_drawings_match_within_a_sample() {
     const DRAWINGS: [&str; 6] = [
         "gecko-resting",
@@ -255,6 +257,7 @@ fn pins_are_satisfied_on_nearly_congruent_shapes() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn symmetric_shapes_rotate_as_little_as_possible() {
     for (shape, period) in [
         (gear(12), TAU / 12.0),
@@ -300,6 +303,7 @@ fn keep_up_prevents_rotation() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn the_reverse_match_is_the_bitwise_inverse() {
     let shapes = [
         shoe(),
@@ -367,6 +371,7 @@ fn contradictory_pins_are_named() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn shapes_without_features_match_too() {
     let circle = |n: u32| {
         ring(
@@ -466,6 +471,7 @@ fn assert_shared(a: &Ring, b: &Ring, spacing: f64) -> SharedPolygons {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn shared_polygons_contain_all_vertices_of_both() {
     let shapes = [
         shoe(),
@@ -508,6 +514,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn any_two_shapes_match_and_share_vertices(a in jagged(), b in jagged()) {
         let forward = matched(&a, &b);
         assert_sound(&forward);

@@ -122,6 +122,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn a_large_picture_is_downscaled_but_covers_the_same_area() {
         let large = Picture::downscaled(RgbaImage::new(6000, 4000));
         assert_eq!(large.pixels().dimensions(), (3000, 2000));

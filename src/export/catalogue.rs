@@ -320,6 +320,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn all_saved_places_are_written_and_measured() {
         let (space, map) = space();
         let saved = saved(&map);
@@ -339,6 +340,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn places_can_be_filtered_by_stars() {
         let (space, map) = space();
         let all = Catalogue::new(&space, &map, &saved(&map), 1, CatalogueOrder::Stars);
@@ -347,6 +349,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn long_names_stay_within_their_cells() {
         let (space, map) = space();
         let long = |site: DVec2| SavedBlend {

@@ -69,6 +69,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn designs_are_named_and_cells_outside_their_hull_are_empty() {
         let tent = |name: &str, h: f64| {
             let ring = [[0.0, 0.0], [2.0, 0.0], [1.0, h]];

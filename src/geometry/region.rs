@@ -449,6 +449,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn nearly_coincident_edges_are_cleaned_quickly() {
         // The fuzzer found these rings. Cleaning them took 15 s with the library's own settings.
         let rings: [&[(f64, f64)]; 5] = [

@@ -170,6 +170,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn areas_grow_from_the_small_design_to_the_large_one() {
         let rectangle = |w: f64| {
             let ring = [[0.0, 0.0], [w, 0.0], [w, 1.0], [0.0, 1.0]];

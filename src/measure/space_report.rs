@@ -126,6 +126,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn rectangles_have_no_defects() {
         let rectangle = |w: f64, h: f64| {
             let ring = [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]];

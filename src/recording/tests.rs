@@ -208,6 +208,7 @@ fn a_part_that_starts_late_begins_a_new_interval() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_recording_is_the_same_on_any_number_of_threads() {
     let of = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

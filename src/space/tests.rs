@@ -62,6 +62,7 @@ fn corner(count: usize, index: usize) -> Vec<f64> {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn weight_one_reproduces_the_design() {
     let designs = vec![star("a", 5, 1.5), star("b", 6, 0.8), star("c", 4, 2.0)];
     let space = space(designs);
@@ -80,6 +81,7 @@ fn weight_one_reproduces_the_design() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn the_order_of_the_designs_hardly_affects_blends() {
     let [a, b, c] = [star("a", 5, 1.5), star("b", 6, 0.8), star("c", 4, 2.0)];
     let blend_points = |designs: Vec<Arc<Design>>, weights: [f64; 3]| {
@@ -121,6 +123,7 @@ fn trusses_are_blended_bar_by_bar() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn designs_without_a_common_mesh_are_blended_as_fields() {
     let designs = || {
         vec![
@@ -168,6 +171,7 @@ fn outlines_with_too_many_points_are_blended_as_fields() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_space_of_two_fields_equals_their_transition() {
     let [a, b] = [star("a", 5, 1.5), frame("b", 1.0)];
     let spec = SpaceSpec {
@@ -186,6 +190,7 @@ fn a_space_of_two_fields_equals_their_transition() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn weights_are_corrected_to_sum_to_one() {
     let space = space(vec![star("a", 5, 1.5), star("b", 6, 0.8)]);
     let mut frame = space.frame();
@@ -223,6 +228,7 @@ fn too_few_designs_and_cancellation_are_errors() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn every_blend_of_stars_has_one_ring(
         shapes in prop::collection::vec((3u32..8, 0.2..2.0_f64), 3..6),
         weights in prop::collection::vec(0.0..1.0_f64, 6),
@@ -249,6 +255,7 @@ fn path_through(places: &[DVec2]) -> MapPath {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_path_shows_the_blends_along_it() {
     // The blends of these designs do not fold. A correction of folds would not be smooth in t.
     let space = space(vec![
@@ -291,6 +298,7 @@ fn a_path_shows_the_blends_along_it() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_path_through_fields_follows_the_map() {
     let spec = SpaceSpec {
         content: Some(ContentKind::Field),

@@ -287,6 +287,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn a_segment_equals_the_single_transition() {
         let sequence = three();
         let mut frame = sequence.frame(0.25);
@@ -308,6 +309,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn designs_are_exact_from_both_sides() {
         let sequence = three();
         let [arriving, leaving] = [(0, 1.0), (1, 0.0)].map(|(segment, t)| {
@@ -324,6 +326,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn colours_run_once_through_all_segments() {
         let (sequence, style) = (three(), TransitionStyle::default());
         let [first, second] = [0, 1].map(|segment| sequence.style_of(segment, &style));
@@ -339,6 +342,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn breaks_are_those_of_the_segments_and_the_designs_between_them() {
         assert_eq!(three().break_times(), [1.0]);
     }

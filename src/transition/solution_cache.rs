@@ -259,6 +259,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn a_cached_match_plays_the_same_motion_without_a_draft() {
         let mut spec = spec();
         for subdivisions in 0..2 {
@@ -287,6 +288,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn a_guard_is_cached() {
         let mut spec = spec();
         let first = built(&spec);
@@ -328,6 +330,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn an_invalid_cached_match_is_computed_again() {
         let mut spec = spec();
         // Drafts keep this test short: it builds many transitions.
@@ -381,6 +384,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn random_bytes_give_a_finite_motion_or_none() {
         let mut spec = spec();
         spec.options.quality = BuildQuality::Draft;

@@ -42,6 +42,7 @@ fn field_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn any_two_forms_become_rigid_parts() {
     let outline = svg("M10 10h80v80h-80z");
     let (mesh, truss) = (design(SQUARE), design(TRUSS));
@@ -57,6 +58,7 @@ fn any_two_forms_become_rigid_parts() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn rigid_outlines_show_the_designs_at_the_ends() {
     let (a, b) = (
         svg("M10 10h80v80h-80z"),
@@ -352,6 +354,7 @@ fn arrow(turned: bool) -> Arc<Design> {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn fields_that_turn_are_not_cropped_by_the_frame() {
     for warp in [WarpKind::Scattered, WarpKind::Lattice, WarpKind::Arap] {
         let mut spec = field_spec(arrow(false), arrow(true));
@@ -406,6 +409,7 @@ fn rigid_parts_carry_a_rotated_field_rigidly() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn one_part_and_two_are_carried_by_every_warp() {
     let one = svg("M20 20h60v60h-60z");
     let two = svg("M10 20h30v60h-30z M60 20h30v60h-30z");
@@ -425,6 +429,7 @@ fn one_part_and_two_are_carried_by_every_warp() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn the_mesh_that_carries_fields_and_pictures_is_accessible() {
     let mut fields = field_spec(arrow(false), arrow(true));
     fields.method = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
@@ -443,6 +448,7 @@ fn the_mesh_that_carries_fields_and_pictures_is_accessible() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn every_method_is_built() {
     let loaded = crate::project::gallery::load("portraits-points").unwrap();
     let pictures = loaded.spec().unwrap();
@@ -469,6 +475,7 @@ fn rigid_fields(source: &str, target: &str) -> TransitionSpec {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn parts_that_leave_a_hole_are_carried_by_fewer_pins_with_a_note() {
     let inside = "M5 20h60v60h-60z M15 30v40h40v-40z M30 45h10v10h-10z";
     let outside = "M5 20h60v60h-60z M15 30v40h40v-40z M80 45h10v10h-10z";
@@ -486,6 +493,7 @@ fn parts_that_leave_a_hole_are_carried_by_fewer_pins_with_a_note() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn pins_that_contradict_their_outlines_carry_alone_with_a_note() {
     let ring = "M10 10h80v80h-80z M40 40v20h20v-20z";
     let mut spec = rigid_fields(ring, ring);
@@ -520,6 +528,7 @@ fn a_boundary_that_cannot_be_exact_gives_a_note() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn impossible_cuts_give_a_note() {
     // An island lies within a hole that winds around it, so that no straight cut leads to the
     // island.
@@ -556,6 +565,7 @@ fn max_crossings(source: &Arc<Design>, target: &Arc<Design>) -> usize {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn parts_do_not_collide() {
     let two = svg("M35 35h30v30h-30z M5 5h10v10h-10z");
     let badge = svg("M10 10h80v80h-80z M20 20v60h60v-60z M40 40h20v20h-20z");
@@ -567,6 +577,7 @@ fn parts_do_not_collide() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn parts_split_by_the_user_stay_together() {
     let bar = svg("M10 40h80v20h-80z");
     let column = svg("M40 10h20v20h-20z M40 40h20v20h-20z M40 70h20v20h-20z");

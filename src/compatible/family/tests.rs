@@ -57,6 +57,7 @@ fn assert_family(family: &CompatibleFamily, designs: &[Regions]) {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn outlines_with_a_hole_are_a_family() {
     let designs = [
         flower(24, 3.0, 0.5, Some(1.0)),
@@ -131,6 +132,7 @@ fn trusses_must_have_the_same_bars() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn flowers_are_a_family(
         shapes in prop::collection::vec((12u32..40, 2u32..6, 0.0..0.8f64), 3..6),
         hub in 0usize..3,

@@ -360,6 +360,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(24))]
         #[test]
+        #[ignore = "slow; run by scripts/test"]
         fn small_moves_of_any_pins_are_met(
             pins in prop::collection::vec(((-1.6f64..5.6), (1.4f64..4.6), (-0.15f64..0.15), (-0.15f64..0.15)), 0..12)
         ) {

@@ -258,6 +258,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn sliding_reduces_distortion_and_keeps_the_outlines() {
         let before = piece([&block(), &key()], vec![]);
         let after = slid(&before);
@@ -288,6 +289,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn exchanged_designs_slide_to_the_same_places() {
         let pieces = [[&block(), &key()], [&key(), &block()]].map(|designs| piece(designs, vec![]));
         let max_distance = |[there, back]: [&PieceMatch; 2]| {

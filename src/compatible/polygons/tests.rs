@@ -211,6 +211,7 @@ fn pair(kinds: (usize, usize), n: usize, seed: u64) -> Option<[Vec<DVec2>; 2]> {
 
 proptest! {
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn any_two_polygons_at_any_shift_are_triangulated(
         kinds in (0usize..6, 0usize..6), n in 8usize..60, seed: u64,
     ) {
@@ -221,6 +222,7 @@ proptest! {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn the_base_alone_never_fails(
         kinds in (0usize..6, 0usize..6), n in 8usize..60, seed: u64,
     ) {

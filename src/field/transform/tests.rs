@@ -97,6 +97,7 @@ proptest! {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn a_few_cells_in_a_large_picture_equal_brute_force(
         seeds in proptest::collection::vec((0..44_u32, 0..33_u32), 1..5),
         invert in proptest::bool::ANY,

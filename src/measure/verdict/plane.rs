@@ -178,6 +178,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn fold_free_lattices_miss_the_pins_instead() {
         let verdict = verdict_with_exchanged_pins(WarpKind::Lattice, true);
         let [finding] = verdict.findings.as_slice() else {

@@ -80,6 +80,7 @@ const WARPS: [WarpKind; 4] = [
 ];
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn weight_one_reproduces_each_picture_in_any_order() {
     for kind in WARPS {
         let space = DesignSpace::build(&spec(&[0, 1, 2], kind), &Silent).expect("a space");

@@ -94,6 +94,7 @@ fn what_would_graze_is_moved_aside_and_no_more() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn backwards_it_is_the_film_of_the_exchanged_designs() {
     let (plain, drawn) = (
         passing(1.8),

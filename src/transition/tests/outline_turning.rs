@@ -32,6 +32,7 @@ fn excess_and_crossings(arap: &Arap) -> (f64, usize) {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn outline_terms_reduce_turning_and_add_no_crossings() {
     let letter = |text: &str| {
         let path = Path::new(text);

@@ -50,6 +50,7 @@ fn assert_same(found: &[(Paint, f64)], expected: &[(Paint, f64)]) {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn the_ends_are_the_drawings_and_exchanging_them_reverses_the_motion() {
     let a = drawing(&format!(
         "{}{}<circle cx='50' cy='50' r='9' fill='#abcdef' fill-opacity='0.5'/>",
@@ -99,6 +100,7 @@ fn paint_outweighs_position_when_parts_are_paired() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn equal_names_pair_parts() {
     let named = |x: f64, y: f64, fill: Rgb, id: &str| {
         square(x, y, 10.0, fill).replace("<rect", &format!("<rect id='{id}'"))
@@ -274,6 +276,7 @@ fn a_drawing_without_colours_takes_those_of_the_style() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn each_paint_has_its_own_field() {
     let a = drawing(&format!(
         "{}{}",

@@ -39,6 +39,7 @@ fn rings(transition: &Transition, t: f64) -> Vec<Vec<DVec2>> {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_part_waits_and_then_moves_as_usual() {
     let plain = squares(Vec::new());
     let timed = plain.with_part_times(&[late(Side::Source, point_in_right_square(&plain))]);
@@ -66,6 +67,7 @@ fn a_part_waits_and_then_moves_as_usual() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_part_changes_colour_in_its_own_time() {
     let plain = squares(Vec::new());
     let timed = plain.with_part_times(&[late(Side::Source, point_in_right_square(&plain))]);
@@ -84,6 +86,7 @@ fn a_part_changes_colour_in_its_own_time() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn exchanging_the_designs_reverses_the_part_times() {
     let plain = squares(Vec::new());
     let timed = plain.with_part_times(&[late(Side::Source, point_in_right_square(&plain))]);
@@ -93,6 +96,7 @@ fn exchanging_the_designs_reverses_the_part_times() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_part_that_splits_waits_with_all_its_pieces() {
     let one = svg("M0 0h80v20h-80z");
     let two = svg("M0 0h20v20h-20z M60 0h20v20h-20z");

@@ -47,6 +47,7 @@ fn unmatched_holes_shrink_in_place() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn exchanging_the_designs_keeps_the_times_of_holes() {
     let (a, b) = (
         perforated(4),
@@ -69,6 +70,7 @@ fn exchanging_the_designs_keeps_the_times_of_holes() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn an_unmatched_hole_crosses_nothing() {
     let frame = svg("M10 10h80v80h-80z M20 20v60h60v-60z");
     let bend = svg("M10 10h80v20h-60v60h-20z");
@@ -79,6 +81,7 @@ fn an_unmatched_hole_crosses_nothing() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_hole_makes_way_for_one_inside_it() {
     // As long as the large hole exists, the small one would cross it, whatever its time window.
     let window = svg("M5 20h90v60h-90z M20 30v40h60v-40z");
@@ -100,6 +103,7 @@ fn a_hole_makes_way_for_one_inside_it() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_draft_has_the_same_ends_as_the_best_match() {
     let (a, b) = (svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
     let spec = TransitionSpec::new(a, b);
@@ -119,6 +123,7 @@ fn a_draft_has_the_same_ends_as_the_best_match() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn designs_that_would_match_better_mirrored_give_a_note() {
     // Two spirals of opposite handedness.
     let spring = "M10 10H90V90H20V40H60V70H40V60H50V50H30V80H80V20H10Z";
@@ -148,6 +153,7 @@ fn swelling(transition: &Transition) -> usize {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_ring_around_other_parts_appears_as_a_line_that_thickens() {
     let bars = svg("M32 30h12v40h-12z M56 30h12v40h-12z");
     let badge = svg(
@@ -210,6 +216,7 @@ fn designs_without_any_matched_part_are_interpolated() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn nothing_appears_inside_a_disappearing_part() {
     // Each square alone could appear or disappear in place; together they would overlap.
     let one = svg("M10 10h30v80h-30z M62 42h16v16h-16z");

@@ -17,6 +17,7 @@ fn rotation_degrees(source: &str, target: &str) -> f64 {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn letters_stay_upright() {
     for (source, target) in [("O", "c"), ("F", "r"), ("K", "p")] {
         let rotation_degrees =
@@ -29,6 +30,7 @@ fn letters_stay_upright() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn rotated_copies_turn() {
     let rotation_degrees = rotation_degrees("glyph:p", "glyph:d");
     assert!(

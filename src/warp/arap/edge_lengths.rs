@@ -100,6 +100,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn a_limb_that_grows_out_of_a_side_does_not_open_like_a_fan() {
         let mesh = growing_limb();
         let arap =

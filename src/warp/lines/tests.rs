@@ -386,6 +386,7 @@ fn slices_of_different_lengths_are_filled_up_to_the_shortest() {
 
 proptest! {
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn the_map_equals_the_papers_formula(
         pairs in pairs(), a in 1e-3..1.0, b in prop_oneof![Just(1.0), Just(2.0), 0.5..3.0],
         p in 0.0..1.0,

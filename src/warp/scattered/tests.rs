@@ -311,6 +311,7 @@ fn assert_no_jump(pairs: &[PointPair]) -> ScatteredTestResult {
 /// One feature crosses the line through the other two, where an affine map would be infinitely
 /// steep.
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_triangle_flips_without_a_jump() -> ScatteredTestResult {
     assert_no_jump(&[
         pair((0.0, 3.0), (0.0, 3.0)),
@@ -320,6 +321,7 @@ fn a_triangle_flips_without_a_jump() -> ScatteredTestResult {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn features_that_swap_positions_cause_no_jump() -> ScatteredTestResult {
     let pairs = [
         pair((0.0, 3.0), (2.0, 3.5)),

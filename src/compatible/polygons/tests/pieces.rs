@@ -58,6 +58,7 @@ fn annulus(turn: f64) -> TestPiece {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn an_annulus_whose_hole_turns() {
     for turn in [0.0, 0.5, 2.0, 3.1] {
         assert_all_ways(&annulus(0.0), &annulus(turn));
@@ -161,6 +162,7 @@ fn a_slit_with_an_end_inside_opens_to_a_notch() {
 }
 
 #[test]
+#[ignore = "slow; run by scripts/test"]
 fn a_hole_close_to_the_boundary() {
     let near = |x: f64| {
         let outer = with_points(circle(DVec2::ZERO, 2.0, 12, 0.0), 40);
@@ -197,6 +199,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
+    #[ignore = "slow; run by scripts/test"]
     fn stars_with_star_shaped_holes(
         counts in prop::collection::vec(8usize..24, 2..5), seed: u64,
     ) {
