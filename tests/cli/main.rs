@@ -125,7 +125,10 @@ fn a_map_path_is_rendered_and_saved_places_are_exported() {
     let document = |map: &str| {
         let designs =
             ["a.svg", "b.svg", "a.svg"].map(|path| format!("[[designs]]\npath = \"{path}\"\n"));
-        let text = format!("version = 2\n{}[timing]\nto = 2.0\n{map}", designs.concat());
+        let text = format!(
+            "version = 2\nquality = \"draft\"\n{}[timing]\nto = 2.0\n{map}",
+            designs.concat()
+        );
         fs::write(cli.path("path.morph"), text).expect("a project");
     };
     document("");
@@ -168,13 +171,15 @@ fn a_map_path_is_rendered_and_saved_places_are_exported() {
 #[test]
 fn several_designs_are_drawn_as_a_map() {
     let cli = CliFixture::new();
-    let messages = stderr(&cli.run("render a.svg b.svg a.svg --map 3x2 --out map.svg"));
+    let messages =
+        stderr(&cli.run("render a.svg b.svg a.svg --quality draft --map 3x2 --out map.svg"));
     assert!(messages.contains("wrote map.svg"), "{messages}");
     let text = fs::read_to_string(cli.path("map.svg")).expect("text");
     assert!(text.matches("<path").count() >= 4, "{text}");
     for sites in ["line", "likeness", "polygon"] {
         cli.succeeds(&format!(
-            "render a.svg b.svg a.svg --map 3x1 --sites {sites} --size 90x40 --out map.png"
+            "render a.svg b.svg a.svg --quality draft --map 3x1 --sites {sites} --size 90x40 \
+             --out map.png"
         ));
         assert_eq!(read_image(&cli.path("map.png")).dimensions(), (90, 40));
     }
@@ -220,8 +225,8 @@ fn several_designs_are_one_film() {
     // shows the other design.
     assert_ne!(first, last);
     assert_ne!(first, middle);
-    cli.succeeds("render a.svg b.svg a.svg --sheet 5 --out sheet.png");
-    cli.succeeds("render a.svg b.svg a.svg --out film.html");
+    cli.succeeds("render a.svg b.svg a.svg --quality draft --sheet 5 --out sheet.png");
+    cli.succeeds("render a.svg b.svg a.svg --quality draft --out film.html");
     cli.fails(
         2,
         "check a.svg b.svg a.svg --pin 1,2:3,4",
@@ -244,7 +249,7 @@ fn glyphs_and_svg_elements_are_accepted_as_designs() {
     cli.succeeds("render glyph:D glyph:S --method field --cells 40 --at 0.5 --out ds.png");
     assert!(cli.path("ds.png").is_file());
     fs::create_dir_all(cli.path("deep")).expect("made");
-    cli.succeeds("new glyph:D%40 c.svg --out deep/p.morph");
+    cli.succeeds("new glyph:D%40 c.svg --quality draft --out deep/p.morph");
     let text = fs::read_to_string(cli.path("deep/p.morph")).expect("read");
     assert!(
         text.contains("\"glyph:D%40\"") && text.contains("\"../c.svg\""),
@@ -252,7 +257,7 @@ fn glyphs_and_svg_elements_are_accepted_as_designs() {
     );
     cli.succeeds("render deep/p.morph --cells 40 --at 1 --out out.svg");
     cli.write("bow.json", "[[0, 0], [20, 20], [20, 0], [0, 20]]");
-    let table = cli.succeeds("check bow.json c.svg#bar --samples 2 --cells 40");
+    let table = cli.succeeds("check bow.json c.svg#bar --quality draft --samples 2 --cells 40");
     assert!(table.contains("1 edge crossing was resolved"), "{table}");
     cli.fails(2, "check glyph:D", "a single design");
     cli.fails(1, "check glyph:D glyph:\u{2603}", "U+2603");
