@@ -245,13 +245,12 @@ fn every_project_file_in_the_docs_parses() {
     assert!(count > 3, "only {count} project files were found");
 }
 
-/// A key that no table of a project file has.
-const UNKNOWN_KEY: &str = "no-such-key = 1";
-
-/// Returns the keys that a project file may have at the place of [`UNKNOWN_KEY`] in `text`, read
-/// from the error message for the unknown key.
-fn known_keys(text: &str) -> Vec<String> {
-    let error = Project::parse(text)
+/// Returns the keys that a table of a project file may have, read from the error message for an
+/// unknown key. `table` is its header, empty for the top level.
+fn known_keys(table: &str) -> Vec<String> {
+    let designs = "[[designs]]\npath = \"a\"\n[[designs]]\npath = \"b\"\n";
+    let text = format!("version = 2\n{table}\nno-such-key = 1\n{designs}");
+    let error = Project::parse(&text)
         .expect_err("a key that does not exist")
         .to_string();
     // The message is like "unknown field `no-such-key`, expected one of `a`, `b`".
@@ -311,13 +310,13 @@ fn the_reference_of_project_files_names_every_key() {
     ];
     for (table, heading) in tables {
         let words = code_words(section(&page, heading));
-        for key in known_keys(&format!("version = 2\n\n{table}\n{UNKNOWN_KEY}\n")) {
+        for key in known_keys(table) {
             let is_named = words.contains(&key.as_str());
             assert!(is_named, "\"{heading}\" does not name `{key}` of {table}");
         }
     }
     let words = code_words(&page);
-    for key in known_keys(&format!("version = 2\n{UNKNOWN_KEY}\n")) {
+    for key in known_keys("") {
         assert!(
             words.contains(&key.as_str()),
             "project-file.md does not name `{key}`"
