@@ -253,13 +253,15 @@ fn known_keys(table: &str) -> Vec<String> {
     let error = Project::parse(&text)
         .expect_err("a key that does not exist")
         .to_string();
-    // The message is like "unknown field `no-such-key`, expected one of `a`, `b`".
-    let (_, keys) = error.split_once("expected").unwrap_or(("", ""));
+    // The message is like "unknown key "no-such-key", expected one of a, b, c" or, from serde,
+    // "unknown field `no-such-key`, expected `a` or `b`".
+    let first_line = error.lines().next().unwrap_or("");
+    let (_, list) = first_line.split_once("expected ").unwrap_or(("", ""));
+    let list = list.trim_start_matches("one of ").replace(" or ", ", ");
+    let keys = list.split(", ");
     let keys: Vec<String> = keys
-        .split('`')
-        .skip(1)
-        .step_by(2)
-        .map(str::to_owned)
+        .map(|key| key.trim_matches('`').to_owned())
+        .filter(|key| !key.is_empty())
         .collect();
     assert!(!keys.is_empty(), "no list of keys: {error}\n{text}");
     keys
@@ -358,6 +360,20 @@ fn the_options_of_the_command_line_are_listed() {
     }
 }
 
+/// Text without the links of rustdoc, which have no target outside the API documentation:
+/// ``[`x`]`` and ``[`x`](path)`` become `` `x` ``.
+fn without_links(docs: &str) -> String {
+    let mut parts = docs.split("[`");
+    let mut text = parts.next().unwrap_or("").to_owned();
+    for part in parts {
+        let (label, rest) = part.split_once("`]").expect("the end of a link");
+        let target = rest.strip_prefix('(').and_then(|rest| rest.split_once(')'));
+        let after = target.map_or(rest, |(_, after)| after);
+        write!(text, "`{label}`{after}").expect("text");
+    }
+    text
+}
+
 /// For each top-level module of `src`: its constants that are marked as heuristic. Each constant is
 /// described by two texts: its file and name, and its documentation up to the mark.
 fn heuristics() -> BTreeMap<String, Vec<[String; 2]>> {
@@ -370,7 +386,7 @@ fn heuristics() -> BTreeMap<String, Vec<[String; 2]>> {
             if let Some((meaning, _)) = constant.docs.split_once("(heuristic") {
                 let entry = format!("`{}` `{}`", inside.display(), constant.name);
                 let constants = by_folder.entry(folder.clone()).or_default();
-                constants.push([entry, meaning.trim().to_owned()]);
+                constants.push([entry, without_links(meaning.trim())]);
             }
         }
     }
