@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Returns the `k`-th pair of lines. The source lines are spread over the frame by an additive
+/// Returns the `k`-th pair of lines. The source lines are spread over the picture by an additive
 /// recurrence; each target line is its source line moved, rotated and lengthened slightly.
 fn line(k: u32) -> LinePair {
     let k = f64::from(k);

@@ -5,7 +5,8 @@
 //! set, the run also times CHOLMOD's back-substitution with the matrix of each warp
 //! (`benches/film_cholmod.sh`).
 //!
-//! - `solved`: a frame computed by the warp (right-hand sides, solve, vertex positions)
+//! - `solved`: a frame computed by the warp (right-hand sides of its linear system, solution,
+//!   vertex positions)
 //! - `played`: the same frame evaluated from the recording on all threads
 //! - `played, 1 thread`: the same on one thread
 

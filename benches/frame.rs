@@ -4,9 +4,10 @@
 //! `cargo bench --no-default-features --bench frame`
 //!
 //! - `build`: affine maps of the faces, assembly of the matrix, and factorisation
-//! - `bare`: solve by faer alone with reused memory, for two right-hand sides
-//! - `solve`: the same solve by this library
-//! - `frame`: a whole frame (right-hand sides, solve, vertex positions)
+//! - `bare`: solution of the linear system by faer alone, for two right-hand sides and with reused
+//!   memory
+//! - `solve`: the same solution by this library
+//! - `frame`: a whole frame (right-hand sides, solution, vertex positions)
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use faer::dyn_stack::{MemBuffer, MemStack};

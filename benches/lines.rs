@@ -142,8 +142,8 @@ fn max_and_mean(values: &[f64]) -> (f64, f64) {
     (max, values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// For each pixel: the distances between the expected positions and those of `placement`, first in
-/// the source, then in the target.
+/// For each pixel: the distance between its position according to `placement` and the expected
+/// position, first in the source, then in the target.
 ///
 /// `expected` consists of four blocks with a value per pixel: x and y in the source, x and y in the
 /// target.

@@ -1,5 +1,6 @@
-//! Times frames of warps by scattered points and by lattices. A frame evaluates two mappings, into
-//! the source and into the target, on a raster of 512 × 512 points or on a grid of 64 × 64 cells.
+//! Times frames of warps by scattered points and by lattices. For each frame, two mappings from the
+//! common frame, into the source and into the target, are evaluated on a raster of 512 × 512 points
+//! or on a grid of 64 × 64 cells.
 //!
 //! `cargo bench --no-default-features --bench scattered`. For comparison,
 //! `benches/scattered_scipy.py` solves and evaluates the mappings of the raster frames with
@@ -51,8 +52,8 @@ fn with_basis(basis: RadialBasis) -> ScatteredOptions {
     }
 }
 
-/// Times frames at t = ½ on a raster of 512 × 512 points. Each frame solves the mappings into the
-/// source and into the target, and evaluates them at all points.
+/// Times frames at t = ½ on a raster of 512 × 512 points. For each frame, the mappings from the
+/// common frame into the source and into the target are solved and evaluated at all points.
 fn rasters(criterion: &mut Criterion) -> Result<()> {
     let raster: Vec<DVec2> = (0..512 * 512)
         .map(|k| DVec2::new(f64::from(k % 512), f64::from(k / 512)) / 511.0)

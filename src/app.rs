@@ -12,7 +12,7 @@
 //! | `session` | the open project: files, undo history, building its transition |
 //! | `files`, `unsaved_question` | open, edit, save and close; file dialog; invitation; gallery |
 //! | `playback`, `presentation` | the blend parameter t and its change over time; talks and the
-//! speaker's window |
+//! speaker window |
 //! | `view`, `stage_area`, `stage_sync` | pan and zoom, filmstrip; what the stage shows |
 //! | `escape`, `open_questions`, `tool_views` | what Esc closes or cancels, full screen |
 //! | `redraw_pace` | how often the window redraws |

@@ -93,7 +93,7 @@ pub struct WindowRequest {
     pub present: bool,
 }
 
-/// Next step of the program after the command line was processed.
+/// How the program continues after the command line was processed.
 #[derive(Debug)]
 pub enum LaunchOutcome {
     /// Open the window.

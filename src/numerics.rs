@@ -99,7 +99,8 @@ const fn in_blocks(unknowns: usize) -> SupernodalThreshold {
 }
 
 /// Minimum number of unknowns for which a factorisation runs on another thread, so that it can be
-/// cancelled at once (heuristic: to factor the system of a mesh of this size takes about 50 ms).
+/// cancelled at once (heuristic: factoring the linear system of a warp with so many vertices takes
+/// about 50 ms).
 const BACKGROUND_FROM: usize = 20_000;
 
 /// Reason why a matrix could not be factored.

@@ -128,7 +128,7 @@ impl Recording {
         self.0.intervals.len()
     }
 
-    /// Returns the size of the stored positions and coefficients in bytes.
+    /// Returns the size of the stored positions and polynomial coefficients in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.0.intervals.iter().map(RecordingInterval::bytes).sum()

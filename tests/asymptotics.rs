@@ -1,4 +1,4 @@
-//! Growth of the program's time and memory with the size n of its input.
+//! Tests how the program's time and memory grow with the size n of its input.
 //!
 //! n is the number of holes, of separate polygons, of nested rings, of pieces into which a star
 //! cuts itself, or a fifth of the number of bars. The time grows at most as n² log n, and the

@@ -123,8 +123,8 @@ fn type_names_are_used_once() {
     );
 }
 
-/// Lists the uses between entries of one folder that lie on a cycle of such uses. An entry is a
-/// file, or a subfolder with all its files.
+/// Lists the uses between entries of a folder that are part of a cycle of uses. An entry is a file,
+/// or a subfolder with all its files.
 fn folder_cycles(uses: &Uses<'_>) -> Vec<String> {
     let mut graphs: BTreeMap<PathBuf, NeighbourGraph> = BTreeMap::new();
     for (from, used) in uses {

@@ -285,7 +285,8 @@ fn section<'a>(page: &'a str, heading: &str) -> &'a str {
 #[test]
 fn the_reference_of_project_files_names_every_key() {
     let page = read(&root().join("docs/reference/project-file.md"));
-    // The section for each table. An inner table is written as a value.
+    // For each table of the project file: the section of the reference that names its keys. An
+    // inner table is written as a value.
     let tables = [
         ("[match]", "Match"),
         ("[triangulation]", "Match"),

@@ -149,9 +149,10 @@ fn films_of_rigid_parts_are_recorded_in_few_solves() {
             let film = transition.record(&RecordingOptions::default(), &Silent);
             let film = film.expect(&entry.name);
             let max_solves = match entry.name.as_str() {
-                // The fern's spiral turns three times, which takes more solves.
+                // The fern's spiral turns three times, so its warp is solved at more values of t.
                 "fern" => 32,
-                // The T of the word NIGHT appears only after t = ½, which also takes more solves.
+                // The T of the word NIGHT appears only after t = ½, so more values of t are needed
+                // here too.
                 "day-to-night" => 32,
                 _ => 16,
             };

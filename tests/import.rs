@@ -1,6 +1,7 @@
-//! Import of files of every format. Valid files are read whatever their extension, byte-order mark
-//! or line ends. Truncated, damaged, hostile and random files give a typed error that names the
-//! file and the place in it, never a panic. Also the ranges of the import options.
+//! Tests of the import of files of every format. Valid files are read whatever their extension,
+//! byte-order mark or line ends. Truncated, damaged, hostile and random files give a typed error
+//! that names the file and the place in it, never a panic. Also tests of the ranges of the import
+//! options.
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
 use morphospace::design::{

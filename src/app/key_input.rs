@@ -12,7 +12,7 @@ use crate::app::map::map_view::MapView;
 use crate::app::open_questions::OpenQuestions;
 use crate::app::presentation::presenter::Presentation;
 
-/// State of the application that changes the effect of a key.
+/// Keyboard focus, open views and open questions, which together decide the effect of a key.
 #[derive(SystemParam)]
 pub struct KeyContext<'w> {
     focus: Res<'w, KeyboardFocus>,

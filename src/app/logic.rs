@@ -200,7 +200,8 @@ fn project_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyst
         .chain()
 }
 
-/// Systems that follow the transition on the stage: recording, measures, comparison and map.
+/// Systems that react to the transition on the stage: recording, measures, suggestions, comparison
+/// and map.
 fn analysis_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     (
         stage_recording::follow,

@@ -1,4 +1,4 @@
-//! Talks: the drawing without panels in full screen, and the speaker's window.
+//! Talks: the drawing without panels in full screen, and the speaker window.
 
 pub mod presenter;
 pub mod speaker_window;

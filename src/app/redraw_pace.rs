@@ -47,7 +47,7 @@ const PROGRESS_INTERVALS: [Duration; 4] = [
     Duration::from_millis(400),
 ];
 
-/// Redraw interval while the speaker's window shows its clock, which then lags by half a second at
+/// Redraw interval while the speaker window shows its clock, which then lags by half a second at
 /// most.
 const CLOCK_INTERVAL: Duration = Duration::from_millis(500);
 
@@ -55,9 +55,9 @@ const CLOCK_INTERVAL: Duration = Duration::from_millis(500);
 /// time. Without one, winit keeps the previous time, which has passed, and wakes continuously.
 const REST_INTERVAL: Duration = Duration::from_secs(3600);
 
-/// Number of screen updates after an event until all its effects are on screen: panels are drawn
-/// after the other systems, their intents are applied one update later and visible in the next, and
-/// the renderer lags another update and reports missing pipelines one update later still.
+/// Number of screen updates after an event until all its effects are on screen. Panels are drawn
+/// after the other systems; their intents are applied one update later and visible in the next. The
+/// renderer lags another update, and reports uncompiled render pipelines one update later still.
 const SETTLING_FRAMES: u8 = 6;
 
 /// Number of screen updates after an event while a transition is being built: fewer, to leave time
@@ -75,7 +75,7 @@ impl Default for PanelRepaint {
     }
 }
 
-/// Conditions from which the update mode of the window follows: how often it redraws.
+/// Conditions that decide how often the window redraws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RedrawPace {
     /// Whether something moves, or the effects of an event are not all on screen yet.
@@ -83,7 +83,7 @@ pub struct RedrawPace {
     /// Whether background work is in progress, or something will change by itself, such as a notice
     /// that disappears.
     pub is_waiting: bool,
-    /// Whether the speaker's window shows its clock.
+    /// Whether the speaker window shows its clock.
     pub has_clock: bool,
     /// Whether the window is minimised or covered, and nothing else requires it to be redrawn.
     pub is_hidden: bool,
@@ -219,7 +219,7 @@ pub struct RedrawMessages<'w, 's> {
     requests: Option<ResMut<'w, Messages<RequestRedraw>>>,
 }
 
-/// State that [`set_redraw_pace`] keeps from one call to the next.
+/// Data that [`set_redraw_pace`] needs from earlier screen updates.
 #[derive(SystemParam)]
 pub struct RedrawState<'s> {
     /// Number of screen updates still to draw until the effects of the last event are on screen.
@@ -258,13 +258,13 @@ pub fn set_redraw_pace(
     if skips_sliding && let Some(requests) = &mut messages.requests {
         requests.clear();
     }
-    // The speaker's window may be covered without any effect on the stage.
+    // The speaker window may be covered without any effect on the stage.
     let is_stage_window =
         |occlusion: &&WindowOccluded| !inputs.speaker.owns_window(occlusion.window);
     if let Some(last) = messages.occlusions.read().filter(is_stage_window).last() {
         *state.is_covered = last.occluded;
     }
-    // A hidden window must still be updated while the speaker's window is open or an autosave is
+    // A hidden window must still be updated while the speaker window is open or an autosave is
     // pending.
     let is_needed = inputs.speaker.is_open() || inputs.autosave.is_behind();
     let pace = RedrawPace {

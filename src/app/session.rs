@@ -1,9 +1,10 @@
 //! The open project.
 //!
-//! [`document`] holds its settings and what is on the stage, [`history`] its undo steps; [`load`]
-//! and [`save`] read and write files, [`unsaved_project`] stores unsaved changes,
-//! [`transition_work`] builds transitions in the background; [`origin`] names the source of a
-//! project; [`state`] combines all these into the resource that the rest of the application uses.
+//! [`document`] holds its settings and its segments on the stage, [`history`] its undo steps;
+//! [`load`] and [`save`] read and write files, [`unsaved_project`] stores unsaved changes,
+//! [`transition_work`] builds transitions in the background; [`origin`] records where a project
+//! comes from; [`state`] combines all these into the resource that the rest of the application
+//! uses.
 
 pub mod document;
 pub mod history;

@@ -2,8 +2,9 @@
 //! uses egui.
 //!
 //! The user interface reads the [`ui_state::UiState`] and sends [`Intent`](crate::app::Intent)s; it
-//! does not change the application's state itself. Unless the user edits text, egui receives no key
-//! events, so that a key such as Space cannot act on a widget and on the playback at once.
+//! does not change the application's state itself. egui receives key events only while a text
+//! field, a menu or the file dialog is in use. Otherwise a key such as Space could act on a widget
+//! and on the playback at once.
 
 pub mod draw;
 mod gallery;

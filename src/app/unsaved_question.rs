@@ -86,7 +86,7 @@ pub fn read_close_requests(
     others: Query<(), (With<Window>, Without<PrimaryWindow>)>,
     mut intents: MessageWriter<Intent>,
 ) {
-    // Closing the speaker's window does not close the application.
+    // Closing the speaker window does not close the application.
     let is_main_window = |request: &&WindowCloseRequested| !others.contains(request.window);
     if requests.read().filter(is_main_window).count() > 0 {
         intents.write(Intent::Close);

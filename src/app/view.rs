@@ -1,4 +1,5 @@
-//! The view of the stage: cameras, filmstrip, onion skins and display preferences.
+//! View of the film: cameras of the stage, filmstrip, onion skins, times between frames of the
+//! window, and the intents that change preferences.
 
 pub mod filmstrip;
 pub mod frame_intervals;

@@ -232,7 +232,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
             write_still(&drawing, kind, &path).map_err(CliError::failed)?;
             vec![path]
         }
-        // `check_output_name` has refused a single image for any other target.
+        // Only films and numbered images remain, because `check_output_name` has refused all other
+        // combinations of target and content.
         (target, _) => write_frames(args, &opened, target, &writing)?,
     };
     // Dropping the terminal clears the progress line before the message is printed.

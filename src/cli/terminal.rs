@@ -30,7 +30,8 @@ impl Terminal {
     /// Installs the signal handler. The first signal cancels the work, which then removes its
     /// temporary files; a later signal ends the program at once.
     pub fn new() -> Self {
-        // A handler would defeat `nohup`. If a program started with `nohup` is killed, the next run
+        // If the program was started with `nohup`, the handler is not installed, because it would
+        // cancel the work when the terminal closes. If such a program is killed, the next run
         // removes its temporary files.
         if !ignores_hangup() {
             let mut first_signal: Option<Instant> = None;

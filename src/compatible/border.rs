@@ -8,8 +8,8 @@ pub(super) fn border_points(frame: &Bounds, spacing: f64) -> Vec<DVec2> {
     let mut points = Vec::new();
     for (a, b) in ring_edges(&frame.corners()) {
         let pieces = (a.distance(b) / spacing).ceil().max(1.0) as u32;
-        // This formula keeps points exactly on an axis-parallel side. Points that rounding moves
-        // off the side could be joined to a folded, very thin face.
+        // This formula keeps points exactly on an axis-parallel side. If rounding moved a point off
+        // the side, the triangulation could have a very thin or folded face there.
         points.extend((0..pieces).map(|i| a + (b - a) * (f64::from(i) / f64::from(pieces))));
     }
     points

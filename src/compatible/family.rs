@@ -144,8 +144,9 @@ impl CompatibleFamily {
 
     /// Creates a family of trusses with the same nodes and bars.
     ///
-    /// The panels are triangulated for one pair of trusses after another, until a triangulation is
-    /// valid in all trusses. Bars that lie in no panel become two-point elements.
+    /// The panels (areas enclosed by bars) are triangulated for one pair of trusses after another,
+    /// until a triangulation is valid in all trusses. Bars that lie in no panel become two-point
+    /// elements.
     ///
     /// # Errors
     /// [`FamilyError`] names a truss that is incompatible with truss 0, or reports that no

@@ -91,8 +91,8 @@ impl CompatibleMesh {
         )
     }
 
-    /// Creates a mesh from two trusses with the same nodes and bars. Panels between the bars are
-    /// triangulated. Bars that lie in no panel become two-point elements.
+    /// Creates a mesh from two trusses with the same nodes and bars. Panels (areas enclosed by
+    /// bars) are triangulated. Bars that lie in no panel become two-point elements.
     ///
     /// # Errors
     /// [`CompatibleError::Truss`] names the first difference between the trusses or the panel that
@@ -166,9 +166,10 @@ impl CompatibleMesh {
         Bounds::diameter_of(&self.source).max(Bounds::diameter_of(&self.target))
     }
 
-    /// Conformal distortion from source to target: σ₁/σ₂, the ratio of the singular values of a
-    /// face's affine map, as a high quantile over the faces. It is 1 for a similarity and for a
-    /// mesh without faces.
+    /// Conformal distortion from source to target, 1 or more. The distortion of a face is σ₁/σ₂,
+    /// the ratio of the singular values of its affine map; it is 1 for a similarity. The result is
+    /// the largest distortion of a face, apart from the ignored faces, and 1 for a mesh without
+    /// faces.
     ///
     /// The weight of a face is the mean of its shares of the source's and the target's area. The
     /// worst faces, up to the fraction `ignored_area` of the total weight, are ignored.

@@ -42,8 +42,8 @@ use std::collections::HashSet;
 /// Faces as triples of node indices, and the bars that become two-point elements.
 pub(super) type PanelMesh = (Vec<[u32; 3]>, Vec<[u32; 2]>);
 
-/// Triangulates the panels between the bars with triangles that are positive in both designs.
-/// Returns the triangles, and the bars that belong to no panel.
+/// Triangulates the panels (areas enclosed by bars) with triangles that are positive in both
+/// designs. Returns the triangles, and the bars that belong to no panel.
 ///
 /// # Errors
 /// [`TrussError`] names the first difference between the trusses, or the nodes of a panel that

@@ -132,13 +132,13 @@ impl PicturePair {
         })
     }
 
-    /// Decoded pictures of source and target.
+    /// Returns the decoded pictures of source and target.
     #[must_use]
     pub fn layers(&self) -> &[PictureLayer; 2] {
         &self.layers
     }
 
-    /// Mix of the two pictures.
+    /// Returns how the two pictures are mixed.
     #[must_use]
     pub fn mix(&self) -> &ColourMix {
         &self.mix

@@ -137,8 +137,8 @@ impl FieldContent {
         self.contour_of(&self.pairs[pair], placement, t)
     }
 
-    /// Returns the contours at `t` by paint layer, the lowest layer first. A content in a single
-    /// colour has one group.
+    /// Returns the contours at `t`, grouped by paint layer, the lowest layer first. A content in a
+    /// single colour has one group.
     #[must_use]
     pub fn layers_at(&self, placement: &Placement, t: f64) -> Vec<InkedLayer> {
         let Some(PaintedFields {

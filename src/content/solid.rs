@@ -221,9 +221,9 @@ impl SolidContent {
             .map_or(t, |&loop_index| self.loop_time(loop_index, t))
     }
 
-    /// Returns the rings that are drawn at `t` by paint layer, the lowest layer first. Rings of the
-    /// same layer are in separate groups if their clocks or their fading differ. A solid in a
-    /// single colour has one group.
+    /// Returns the rings that are drawn at `t`, grouped by paint layer, the lowest layer first.
+    /// Rings of the same layer are in separate groups if their clocks or their fading differ. A
+    /// solid in a single colour has one group.
     ///
     /// # Panics
     /// Panics if a loop uses a vertex that has no position.

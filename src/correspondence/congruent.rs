@@ -24,7 +24,7 @@ const MAX_SHIFT: f64 = 0.025;
 /// as a fraction of the target's length (heuristic).
 const MAX_DISTANCE: f64 = 0.01;
 
-/// Maximum number of rounds of the iterated closest point method (resource limit).
+/// Maximum number of iterations of the iterated closest point method (resource limit).
 const MAX_ROUNDS: usize = 8;
 
 /// Half-length of the section of a curve over which its direction is averaged, as a fraction of the
@@ -59,8 +59,8 @@ pub(super) fn registered_knots(
             .map(|&nearest| target.point_at(nearest))
             .collect();
         let fit = SimilarityFit::of(&points, &landed)?;
-        // Check the residual in the first round only, because later rounds reduce it for any two
-        // curves.
+        // Check the residual in the first round of the loop only, because later rounds reduce it
+        // for any two curves.
         if round == 0 && fit.residual(&points, &landed) > MAX_RESIDUAL * length {
             return None;
         }
@@ -76,8 +76,8 @@ pub(super) fn registered_knots(
                 let other = target.direction(place - TANGENT_REACH, place + TANGENT_REACH);
                 (own + fit.angle() - other).cos() > SAME_DIRECTION
             };
-            // Search around the originally matched place, so that the knot cannot drift away over
-            // the rounds.
+            // In each round of the loop, search around the originally matched place, so that the
+            // knot cannot drift away.
             let (low, high) = (matched - MAX_SHIFT, matched + MAX_SHIFT);
             let (nearest, distance) = target.nearest_within(p, low, high);
             let lands = distance <= MAX_DISTANCE * length && is_same_way(nearest);

@@ -148,8 +148,8 @@ impl BoundaryCurve {
     }
 
     /// Finds the point nearest to `p` on the section of the curve from place `from` to place `to`.
-    /// Returns its place, in [0, 1), and its distance from `p`. `from` and `to` may lie outside
-    /// [0, 1). Requires `from <= to`; at most one round is searched.
+    /// Returns its place, in [0, 1), and its distance from `p`. `from` and `to` may be negative or
+    /// exceed 1. Requires `from <= to`; at most one full turn around the curve is searched.
     pub(super) fn nearest_within(&self, p: DVec2, from: f64, to: f64) -> (f64, f64) {
         let to = to.min(from + 1.0);
         let mut best = (f64::INFINITY, self.wrapped(from));
@@ -227,9 +227,9 @@ impl BoundaryCurve {
         let rounds = place.floor();
         let partial = place - rounds;
         let whole = rounds * self.integral[self.directions.len()];
-        // In round k the direction is larger by k · `round` than in round 0. The whole rounds have
-        // k = 0, 1, …, rounds − 1, with the sum 0.5 · rounds · (rounds − 1). The partial last round
-        // has k = rounds and the length `partial`.
+        // On trip k around the curve, the direction is larger by k · `round` than on trip 0. The
+        // complete trips have k = 0, 1, …, rounds − 1, with the sum 0.5 · rounds · (rounds − 1).
+        // The last, incomplete trip has k = rounds and the length `partial`.
         let full_rounds = self.round * rounds * (partial + 0.5 * (rounds - 1.0));
         whole + full_rounds + self.integral_within(partial)
     }

@@ -18,7 +18,8 @@ use crate::geometry::DVec2;
 /// samples, and no more than this number; it takes at most a quarter of the time.
 const COARSE_SEARCH_SAMPLES: u32 = 96;
 
-/// Two sampled curves with their features and pins, and the weights of the cost's terms.
+/// Two sampled curves with their features and pins, and the weights of the terms that make up the
+/// cost of a path.
 pub(super) struct CurveMatchProblem {
     pub(super) source: CurveSamples,
     pub(super) target: CurveSamples,
@@ -110,7 +111,7 @@ impl CurveMatchProblem {
             return visit(cost, &|| nodes.clone());
         }
         let (n, m) = (self.source.places.len(), self.target.places.len());
-        // The grid covers two rounds of the source, so that a path may begin at any of the source's
+        // The grid runs around the source twice, so that a path may begin at any of the source's
         // samples.
         let grid = self.grid(dissimilarities, [0, 0], [2 * n, m]);
         for route in cheapest_path_per_start(&grid.step_costs(), n) {
@@ -118,8 +119,9 @@ impl CurveMatchProblem {
         }
     }
 
-    /// Returns the pinned nodes in ascending order, followed by the first of them again, one round
-    /// later. The list is empty without pins.
+    /// Returns the nodes (pairs of sample indices) of the pins in ascending order. The first of
+    /// them is repeated at the end, with its indices one round later. The list is empty without
+    /// pins.
     pub(super) fn fixed_nodes(&self) -> Vec<[usize; 2]> {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let node =
@@ -127,7 +129,8 @@ impl CurveMatchProblem {
         let mut nodes: Vec<[usize; 2]> = self.pins.iter().filter_map(node).collect();
         if let Some(&first) = nodes.first() {
             for node in &mut nodes {
-                // Add one round to smaller indices of the target, so that the nodes ascend.
+                // A target index below that of the first node belongs to the next round. Add the
+                // number of target samples, `m`, so that the nodes ascend.
                 if node[1] < first[1] {
                     node[1] += m;
                 }

@@ -24,7 +24,7 @@ const HALF_THICKNESS: f64 = 0.5;
 /// fraction of the curve's length (heuristic).
 const TANGENT_REACH: f64 = 0.01;
 
-/// Weights of the pose-dependent features.
+/// Weights of the two features that depend on the pose: the tangent's direction and the position.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PoseWeights {
     tangent: f64,
@@ -53,8 +53,8 @@ const HALF_DISTANCE: f64 = 1.0;
 /// Features of each sample of a curve: turning, thickness, direction and position.
 #[derive(Clone, Debug)]
 pub(super) struct BoundaryFeatures {
-    /// For each sample: turning (change of direction) over each length in [`REACHES`], in units of
-    /// π.
+    /// For each sample: turning (change of direction) over the sections with the half-lengths in
+    /// [`REACHES`], in units of π.
     turning: Vec<[f64; REACHES.len()]>,
     /// For each sample: logarithm of the thickness, minus its mean along the curve.
     log_thickness: Vec<f64>,
@@ -84,7 +84,7 @@ impl BoundaryFeatures {
     }
 
     /// Returns how strongly the outline bends at a sample, to either side: the sum of the absolute
-    /// turnings over all lengths in [`REACHES`], in units of π.
+    /// turnings over the sections with the half-lengths in [`REACHES`], in units of π.
     pub fn salience(&self, sample: usize) -> f64 {
         self.turning[sample].iter().map(|turn| turn.abs()).sum()
     }

@@ -18,8 +18,8 @@ const HALF_RATIO: f64 = 0.25;
 /// to this minimum, because the boundary features suffice to compare close neighbours (heuristic).
 const MIN_DISTANCE: f64 = 0.03;
 
-/// Number of entries in a sample's initial descriptor: the inner distances to this number of evenly
-/// spaced places along the boundary (heuristic).
+/// Number of evenly spaced places along the boundary to which a sample's inner distances are
+/// measured before any corresponding samples are known (heuristic).
 pub(super) const AHEAD: u32 = 48;
 
 /// Inner distances between all samples of a curve.
@@ -83,8 +83,9 @@ impl InnerDescriptors {
     }
 }
 
-/// Returns the dissimilarity, in [0, 1], of each pair of a source row and a target row. The result
-/// has one row for each target row. `weights` holds the weight of each column.
+/// Compares each source sample with each target sample by their rows of logarithms of inner
+/// distances. Returns one row of dissimilarities, in [0, 1], for each target sample. `weights`
+/// holds the weight of each column of the given rows.
 pub(super) fn inner_dissimilarities(source: &[f64], target: &[f64], weights: &[f64]) -> Vec<f64> {
     let total: f64 = weights.iter().sum();
     let mut pairs = Vec::with_capacity(source.len() / weights.len() * target.len() / weights.len());

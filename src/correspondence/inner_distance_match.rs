@@ -83,8 +83,8 @@ impl CurveMatchProblem {
     }
 
     /// Returns the reference pairs of a closed path: pairs of its samples, each at least
-    /// [`MIN_PAIR_DISTANCE`] after the previous one. Also returns the length of the path that each
-    /// represents.
+    /// [`MIN_PAIR_DISTANCE`] after the previous one. Also returns, for each pair, the length of the
+    /// path since the previous pair or the path's start.
     fn reference_pairs(&self, nodes: &[[usize; 2]]) -> (Vec<[usize; 2]>, Vec<f64>) {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let position =
@@ -126,8 +126,8 @@ mod tests {
     /// Number of points on each side of a limb.
     const SIDE: usize = 61;
 
-    /// Creates a tapering limb whose centre line turns by `turn(t)` radians at each step, with t
-    /// from 0 to 1 along the limb. Point k is the same material point in every limb.
+    /// Creates a tapering limb whose centre line turns by `turn(t)` radians at each of its points,
+    /// with t from 0 to 1 along the limb. Point k is the same material point in every limb.
     fn limb(turn: impl Fn(f64) -> f64) -> BoundaryCurve {
         let (mut at, mut direction) = (DVec2::ZERO, DVec2::X);
         let (mut right, mut left) = (Vec::new(), Vec::new());

@@ -49,8 +49,8 @@ pub(super) fn merged_steps(nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
     blocks
 }
 
-/// Returns for each row the first and the last column within `reach` of the path, in the maximum
-/// norm.
+/// Returns, for each row of the grid, the first and the last column that lie within `reach` columns
+/// and `reach` rows of a node of the path.
 fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     let [columns, rows] = nodes[nodes.len() - 1];
     let mut first = vec![columns; rows + 1];
@@ -61,8 +61,8 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     }
     let window = |j: usize| {
         // The path's first and last columns never decrease from row to row. Among the rows within
-        // `reach`, the lowest row therefore has the smallest first column, and the highest row the
-        // largest last column.
+        // `reach`, the one with the smallest index therefore has the smallest first column, and the
+        // one with the largest index the largest last column.
         let low = first[j.saturating_sub(reach)].saturating_sub(reach);
         let high = (last[(j + reach).min(rows)] + reach).min(columns);
         [low, high]
@@ -75,7 +75,7 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
 fn cheapest_path(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> {
     let width = grid.source.len();
     let longer = LONGER.into_iter().flat_map(|[a, b]| [[a, b], [b, a]]);
-    // The step [1, 1] comes first, because the first step wins ties.
+    // The step [1, 1] comes first, because the first of several equally cheap steps is chosen.
     let steps = std::iter::once([1, 1]).chain(longer);
     let steps: Vec<MonotoneStep> = steps.map(|step| MonotoneStep::new(step, width)).collect();
     let mut cost = vec![f64::INFINITY; width * windows.len()];
@@ -148,8 +148,8 @@ impl MonotoneStep {
         let between = (1..count).map(|k| {
             let [i, j] = [source * k / count, target * k / count];
             let [di, dj] = [source * k % count, target * k % count];
-            // One of the two remainders is 0, because k counts the samples of the curve along which
-            // the step advances farther.
+            // One of the remainders `di` and `dj` is 0, because k counts the samples of the curve
+            // along which the step advances farther.
             let next_node = j * width + i + usize::from(di > 0) + width * usize::from(dj > 0);
             (j * width + i, next_node, di.max(dj) as f64 / count as f64)
         });

@@ -42,13 +42,14 @@ pub enum PairError {
     Twice(usize),
 }
 
-/// Weight of the distance between the parts' centres, in units of the design's size; the other
-/// weights are relative to it.
+/// Weight, in the cost of pairing two parts, of the distance between their centres in units of the
+/// design's size; the other weights are relative to it.
 const POSITION: f64 = 1.0;
-/// Weight of the absolute logarithm of the ratio of the parts' sizes (heuristic).
+/// Weight, in the cost of pairing two parts, of the absolute logarithm of the ratio of their sizes
+/// (heuristic).
 const SIZE: f64 = 0.15;
-/// Weight of each of the three differences in shape: in roundness, in slenderness and in the number
-/// of holes (heuristic).
+/// Weight, in the cost of pairing two parts, of each of the three differences in shape: in
+/// roundness, in slenderness and in the number of holes (heuristic).
 const SHAPE: f64 = 0.25;
 
 /// Cost of leaving all parts of a design unmatched. A single part costs a share of this in
@@ -139,7 +140,7 @@ struct PartFeatures {
     slenderness: f64,
     /// Number of holes of the part.
     holes: f64,
-    /// Paint, height, name and other attributes that are independent of the shape.
+    /// Properties that do not depend on the shape, such as paint and name.
     appearance: PartAppearance,
 }
 
@@ -251,9 +252,10 @@ fn pair(
         .cmp(&b.len())
         .then_with(|| lexicographic(keys(source, &a), keys(target, &b)));
     let mut pairs = fixed.to_vec();
-    // Every row is paired, so only columns can stay unmatched. The cost of all unmatched columns is
-    // a constant minus that of the paired columns. Each pair's cost is therefore reduced by the
-    // unmatched cost of its column.
+    // Every row is paired, so only columns can stay unmatched. The cost of the unmatched columns is
+    // the cost of leaving all columns unmatched, minus that of leaving the paired columns
+    // unmatched. The cost of a pair is therefore reduced by the cost of leaving its column
+    // unmatched.
     if order == Ordering::Greater {
         let unmatched_cost = unmatched_costs(source);
         let cost =

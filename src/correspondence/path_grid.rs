@@ -7,7 +7,8 @@
 //! in the two curves.
 
 /// Places (fractions of arc length) of consecutive samples of two curves, and the dissimilarities
-/// of all their pairs. Places of the second round are larger by 1.
+/// of all their pairs. If the grid runs around a curve twice, the places of the second round are
+/// larger by 1.
 #[derive(Clone, Debug)]
 pub(super) struct PathGrid {
     /// Places of the source's samples, ascending.
@@ -41,7 +42,7 @@ pub(super) struct GridPath {
     pub rows: Vec<[usize; 2]>,
 }
 
-/// Buffers of the dynamic program, reused between solves.
+/// Buffers of the search for the cheapest path, reused from one search to the next.
 #[derive(Debug, Default)]
 pub(super) struct PathBuffers {
     /// Minimum costs of the nodes in the previous row; the cost of column i has index 1 + i.
@@ -186,7 +187,8 @@ impl StepCosts {
 }
 
 impl PathBuffers {
-    /// Clears the buffers for a grid of `width` columns.
+    /// Prepares the buffers for a search in a grid of `width` columns: sets all costs to infinity
+    /// and removes the steps of the previous search.
     fn reset(&mut self, width: usize) {
         for row in [&mut self.previous, &mut self.current] {
             row.clear();
@@ -263,7 +265,7 @@ mod tests {
         assert!((route.cost - sum).abs() < 1e-15);
     }
 
-    /// Returns the minimum cost by enumerating all paths.
+    /// Returns the minimum cost of a path from (0, 0) to (i, j), by enumerating all paths.
     fn brute_force_cost(grid: &PathGrid, i: usize, j: usize) -> f64 {
         let mut best = if i + j == 0 { 0.0 } else { f64::INFINITY };
         for (di, dj) in [(1, 1), (1, 0), (0, 1)] {

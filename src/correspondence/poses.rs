@@ -36,8 +36,8 @@ const SAME_POSE: f64 = 0.02;
 
 /// A closed path through sample pairs, and the dissimilarities for which the search found it.
 pub(super) struct PathSolution {
-    /// Pairs of sample indices `[source, target]` at unit steps. The indices continue from round to
-    /// round.
+    /// Nodes of the path: pairs of sample indices `[source, target]`, each one unit step after the
+    /// previous one. The indices continue from round to round.
     pub(super) nodes: Vec<[usize; 2]>,
     /// Dissimilarities of all sample pairs that the search used, one row for each target sample.
     pub(super) dissimilarity: Vec<f64>,

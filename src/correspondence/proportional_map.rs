@@ -4,15 +4,16 @@
 use super::boundary_match::interpolate_knots;
 use super::curve::BoundaryCurve;
 
-/// A pair of corresponding places (fractions of arc length), and its parameter, which is the same
-/// on both curves: `[source, target, parameter]`.
+/// Knot `[source, target, parameter]`: a pair of corresponding places (fractions of arc length) and
+/// their common parameter. This parameter measures how far along both curves the pair lies; it
+/// increases by 1 with each round.
 pub(super) type ParameterKnot = [f64; 3];
 
 /// Column of the common parameter in a [`ParameterKnot`].
 pub(super) const BOTH: usize = 2;
 
-/// A vertex that both polygons will have. Its parameter is common to both polygons. It has its own
-/// place on each curve of which it is a vertex or a pin.
+/// A vertex that both polygons will have, at one value of the parameter that is common to both
+/// curves. It has its own place on each curve of which it is a vertex or a pin.
 #[derive(Clone, Copy)]
 pub(super) struct SharedVertex {
     /// Parameter of the vertex, common to both curves, in [0, 1).

@@ -156,18 +156,19 @@ impl CommonParameter {
         }
     }
 
-    /// Returns the common parameter of a curve's place.
+    /// Converts a place on one curve to the parameter that is common to both curves.
     fn parameter(&self, place: f64, side: usize) -> f64 {
         let round = f64::from(u8::from(place < self.knots[0][side]));
         interpolate_knots(&self.knots, place + round, [side, BOTH])
     }
 
-    /// Returns a curve's place at a common parameter.
+    /// Converts a value of the parameter that is common to both curves to a place on one of them.
     fn place(&self, parameter: f64, side: usize, curve: &BoundaryCurve) -> f64 {
         curve.wrapped(interpolate_knots(&self.knots, parameter, [BOTH, side]))
     }
 
-    /// Returns the common parameters of a curve's places, ascending.
+    /// Converts places on one curve to values of the parameter that is common to both curves. The
+    /// result ascends.
     fn sorted_parameters(&self, places: &[f64], side: usize) -> Vec<f64> {
         let mut parameters: Vec<f64> = places.iter().map(|&p| self.parameter(p, side)).collect();
         parameters.sort_by(f64::total_cmp);
@@ -220,7 +221,8 @@ fn nearest_index(list: &[f64], at: f64) -> Option<usize> {
     candidates.min_by(|&a, &b| (list[a] - at).abs().total_cmp(&(list[b] - at).abs()))
 }
 
-/// Sorts the vertices and merges those at the same parameter.
+/// Sorts the vertices by the parameter that is common to both curves, and merges those with equal
+/// parameters.
 fn merge_equal(mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
     // Parameters 0 and 1 are the same place.
     for vertex in &mut vertices {
@@ -244,7 +246,8 @@ fn merge_equal(mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
     merged
 }
 
-/// Adds evenly spaced vertices between neighbours whose parameters differ by more than `spacing`.
+/// Adds evenly spaced vertices between neighbours whose common parameters differ by more than
+/// `spacing`.
 fn subdivide_gaps(vertices: Vec<SharedVertex>, spacing: f64) -> Vec<SharedVertex> {
     let mut spaced = Vec::with_capacity(vertices.len());
     for (k, &vertex) in vertices.iter().enumerate() {
@@ -265,8 +268,8 @@ fn subdivide_gaps(vertices: Vec<SharedVertex>, spacing: f64) -> Vec<SharedVertex
     spaced
 }
 
-/// Evaluates the vertices on both curves. A vertex that coincides with the previous one on either
-/// curve is omitted.
+/// Computes the position of each vertex on both curves. A vertex that coincides with the previous
+/// one on either curve is omitted.
 fn evaluate_polygons(
     vertices: &[SharedVertex],
     straight: &ProportionalMap,

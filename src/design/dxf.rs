@@ -11,9 +11,10 @@
 //! bytes per byte of a hostile file) and does not report the line of an error.
 //!
 //! Guarantees that no input causes a panic or an infinite loop, and that memory use stays within a
-//! few hundred bytes per entity; there are at most [`MAX_OBJECTS`] entities. Open curves, splines
-//! with fit points only, hatches, text and solids are ignored and reported as notes. Where three or
-//! a larger odd number of curves meet at a point, it is arbitrary which of them form a ring.
+//! few hundred bytes per entity; there are at most [`MAX_OBJECTS`] entities and polyline vertices.
+//! Open curves, splines with fit points only, hatches, text and solids are ignored and reported as
+//! notes. Where three or a larger odd number of curves meet at a point, it is arbitrary which of
+//! them form a ring.
 //!
 //! [`MAX_OBJECTS`]: error::MAX_OBJECTS
 
@@ -70,7 +71,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<ImportedOutlines, Dxf
         return Err(DxfError::Open { count, at });
     }
     let (regions, mut repairs) = Regions::from_rings_reporting(&rings, FillRule::EvenOdd)?;
-    // So far, `repairs` counts only duplicate rings; `joined` counts duplicate curves.
+    // Duplicate rings are already counted. Add the duplicate curves.
     repairs.duplicates += joined.duplicates;
     let mut notes = ImportNote::from_repairs(&repairs, FillRule::EvenOdd);
     notes.extend(joined.loose_ends.first().map(|&at| ImportNote::OpenCurves {

@@ -23,7 +23,7 @@ pub struct ImportError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImportProblem {
-    /// The file is missing, is not a regular file, or is too large.
+    /// The file is missing, cannot be read, is not a regular file, or is too large.
     #[error(transparent)]
     Read(#[from] ReadError),
     /// The file has no bytes.

@@ -65,8 +65,8 @@ impl Flattener {
                 PathSegment::LineTo(p) => ring.push(place(p)),
                 PathSegment::QuadTo(b, c) => {
                     let (b, c) = (place(b), place(c));
-                    // Degree elevation: the cubic control points lie two thirds of the
-                    // way to the quadratic one.
+                    // Degree elevation: each inner control point of the equal cubic curve lies two
+                    // thirds of the way from an end to the quadratic control point.
                     let elevated = |q: DVec2| q + (b - q) * (2.0 / 3.0);
                     let bend = 2.0 * (last - 2.0 * b + c).length();
                     self.curve(&mut ring, [elevated(last), elevated(c), c], bend);
@@ -96,7 +96,8 @@ impl Flattener {
     /// bound of the length of its second derivative.
     fn curve(&self, ring: &mut Vec<DVec2>, [b, c, d]: [DVec2; 3], bend: f64) {
         let a = ring.last().copied().unwrap_or(b);
-        // Number of chords by Wang's bound. `bend` is d (d − 1) times the second difference.
+        // Number of chords n at which Wang's bound on the error, `bend` / (8 n²), is at most the
+        // tolerance.
         let pieces = (bend / (8.0 * self.tolerance)).sqrt().ceil();
         let pieces = pieces.clamp(1.0, MAX_PIECES) as u32;
         ring.extend((1..pieces).map(|k| {

@@ -122,8 +122,8 @@ impl Design {
             false => Vec::new(),
         };
         let is_shaded = options.colours && layers.is_empty();
-        // Reduce the colours to grey levels now, so that the full-size pixels are freed
-        // before tracing allocates its own memory.
+        // Extract the opacities or grey levels now, so that the full-size pixels are freed before
+        // tracing allocates its own memory.
         let outline_or_tones = match covered_area(&layers) {
             Some(regions) => Ok(regions),
             None => Err(PictureTones::of(&pixels, options)?),

@@ -54,13 +54,14 @@ pub enum ImportNote {
     Characters(usize),
     /// Number of ignored pictures embedded in a drawing.
     Pictures(usize),
-    /// Number of patterns and stroke gradients that were replaced by their mean colour.
+    /// Number of patterns and stroke gradients of a drawing that were replaced by their mean
+    /// colour.
     MeanColours(usize),
     /// Number of ignored masks of a drawing.
     Masks(usize),
-    /// Number of elements whose filter was ignored.
+    /// Number of elements of a drawing whose filter was ignored.
     Filters(usize),
-    /// Number of groups whose opacity or blend mode is only approximated.
+    /// Number of groups of a drawing whose opacity or blend mode is only approximated.
     GroupBlending(usize),
     /// The colours of a large picture were stored at a lower resolution.
     ReducedPicture {

@@ -66,7 +66,7 @@ pub enum SilhouetteError {
     /// An option is out of range.
     #[error(transparent)]
     Options(#[from] ImportOptionsError),
-    /// The samples cannot form a grid.
+    /// The number of samples is 0 or differs from the number of pixels.
     #[error(transparent)]
     Samples(#[from] SampledFieldError),
     /// The boundary does not form valid regions.
@@ -274,8 +274,9 @@ impl FigureSamples {
         }
     }
 
-    /// Traces and simplifies the zero contour. The result deviates from the exact boundary by about
-    /// `tolerance` pixels on average; by more where the pixels leave a larger uncertainty.
+    /// Traces the zero contour of the samples and simplifies it. The result deviates from the exact
+    /// boundary by about `tolerance` pixels on average, and by more where the pixels do not
+    /// determine the boundary that accurately.
     fn trace(&self, tolerance: f64) -> Result<Regions, SilhouetteError> {
         let threshold = self.threshold;
         // `tolerance` is a mean deviation, `flatness` a maximum deviation, in pixels.
@@ -396,7 +397,7 @@ fn otsu(tones: &[u8]) -> Option<u8> {
     for threshold in 1..256 {
         below += histogram[threshold - 1] as f64;
         sum_below += weighted((threshold - 1, &histogram[threshold - 1]));
-        // Between-class variance up to a constant factor.
+        // `variance` is the variance between the two classes, up to a constant factor.
         let separation = sum_below * total - sum * below;
         let classes = below * (total - below);
         let variance = if classes > 0.0 {
@@ -406,8 +407,8 @@ fn otsu(tones: &[u8]) -> Option<u8> {
         };
         if variance > best.0 {
             best = (variance, threshold, threshold);
-        // A run holds consecutive thresholds, so an equally good threshold extends it only if it
-        // directly follows the last one.
+        // `best` holds a run of consecutive, equally good thresholds. Another one extends the run
+        // only if it directly follows the last one.
         } else if variance == best.0 && best.0 > 0.0 && best.2 + 1 == threshold {
             best.2 = threshold;
         }

@@ -140,7 +140,7 @@ pub fn comparison_sheet(
                 };
                 LABEL_STYLE.push(&mut drawing, reason, area, ERROR_COLOUR);
             }
-            // Bounds exist as soon as one transition was built, so this case does not occur.
+            // There are bounds if at least one transition was built, so this case does not occur.
             (Ok(_), None) => {}
         }
     }
@@ -176,10 +176,10 @@ fn push_name(drawing: &mut Drawing, row: &MethodRow, is_best: bool, corner: DVec
     REMARK_STYLE.push(drawing, &words, rating_area, colour);
 }
 
-/// Returns the width and height of a frame, in pixels.
+/// Returns the width and height of a cell, which shows one frame, in pixels.
 fn cell(bounds: Option<Bounds>, rows: usize, columns: usize) -> DVec2 {
     let size = bounds.map_or(DVec2::ONE, |bounds| bounds.size());
-    // Elongated designs get cells of at most 5:1.
+    // The sides of a cell have a ratio of at most 5:1, even for more elongated designs.
     let shape = (size / size.max_element()).max(DVec2::splat(0.2));
     let count = DVec2::new(columns.max(1) as f64, rows.max(1) as f64);
     let room = (DVec2::splat(MAX_SHEET_SIDE_PX - NAMES_PX - 8.0 * GAP_PX) / count - GAP_PX) / shape;

@@ -92,7 +92,8 @@ impl FilmSpec {
         check(fps, timing.from, timing.to)?;
         let pass_secs = timing.film_secs(stops);
         let steps = (pass_secs * fps).round().max(1.0) as usize;
-        // The conversion with `as` saturates, so even an absurdly long pass is refused here.
+        // If the number of frames does not fit into an integer, `as` converts it to the largest
+        // integer, so even an absurdly long pass is refused here.
         if steps >= MAX_FRAMES {
             return Err(FilmSpecError::Count(steps.saturating_add(1)));
         }

@@ -36,8 +36,8 @@ const TICKS_PER_SEC: f64 = 100.0;
 /// Colours that occur only in other frames are replaced by the nearest.
 const PALETTE_SAMPLES: usize = 24;
 
-/// Progress reported once the palette is chosen, in [0, 1] (heuristic: 24 of about 90 frames of a
-/// typical film are drawn for it).
+/// Progress reported once the palette is chosen, in [0, 1] (heuristic: for a typical film of about
+/// 90 frames, 24 additional drawings are needed for the palette).
 const PALETTE_FRACTION: f64 = 0.2;
 
 /// Writes the film to `path`, and verifies the file before it replaces an earlier one.

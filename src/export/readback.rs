@@ -94,8 +94,9 @@ mod tests {
     use crate::work::progress::Silent;
     use std::sync::Mutex;
 
-    /// Asserts that `check` accepts what `write` wrote, and refuses it truncated, overwritten with
-    /// zeros, or with another frame count.
+    /// Asserts that `check` accepts the file that `write` has written, and refuses this file if it
+    /// is truncated, if a part of it is overwritten with zeros, or if another frame count is
+    /// expected.
     fn assert_damage_is_noticed(
         write: fn(
             &crate::export::Camera,

@@ -1,7 +1,7 @@
 //! Image size in pixels, and its limits.
 //!
-//! Guarantees: an image of any [`PixelSize`] can be allocated on an ordinary machine, so later
-//! steps never fail because of the size.
+//! Guarantees: an image of any [`PixelSize`] can be allocated on an ordinary machine, so nothing
+//! fails later because of the size.
 
 use std::fmt;
 use std::str::FromStr;
@@ -102,7 +102,8 @@ impl PixelSize {
     /// # Errors
     /// [`PixelSizeError`] if a side is 0 or the image is too large.
     pub(super) fn rounded_up(sides_px: DVec2) -> Result<Self, PixelSizeError> {
-        // The conversion with `as` saturates, so absurdly large sides are refused as too large.
+        // A side that does not fit into 32 bits is converted by `as` to the largest 32-bit number,
+        // which is then refused as too large.
         let [width, height] = sides_px.to_array().map(|side| side.ceil() as u32);
         Self::new(width, height)
     }

@@ -1,4 +1,5 @@
-//! Traces the contours of a function over a picture as closed polygons.
+//! Traces the contours of a function as closed polygons. The function is defined over a *picture*:
+//! a rectangle with a regular lattice of samples.
 //!
 //! Uses marching squares on the lattice of samples (after Lorensen and Cline 1987, in the plane),
 //! with two improvements. Crossings are roots of the function itself, not of a line between two
@@ -24,11 +25,11 @@ const BRACKET: f64 = 1e-11;
 
 /// Residual at which the search for a crossing stops, as a fraction of the function's change along
 /// the lattice edge (tolerance: about twice the rounding error of `f64`, so that the search takes
-/// one step where the function is linear).
+/// one iteration where the function is linear).
 const RESIDUAL: f64 = 4e-16;
 
-/// Maximum number of steps for one crossing. Derived: every third step is a bisection, so 3 ·
-/// ⌈log2(1 / [`BRACKET`])⌉ steps suffice for any function.
+/// Maximum number of iterations of the search for one crossing. Derived: every third iteration is a
+/// bisection, so 3 · ⌈log2(1 / [`BRACKET`])⌉ iterations suffice for any function.
 const MAX_STEPS: u32 = 111;
 
 /// Traces the boundary of `{ value ≥ level }` over a picture of `width` × `height` samples.
@@ -232,7 +233,7 @@ where
 }
 
 /// Finds the root in [0, 1] of a continuous function that is non-negative at exactly one end. Uses
-/// the Illinois method; every third step is a bisection, for functions that stall that method.
+/// the Illinois method; every third iteration is a bisection, for functions that stall that method.
 fn root(f: impl Fn(f64) -> f64) -> f64 {
     let (mut lo, mut hi) = ((0.0, f(0.0)), (1.0, f(1.0)));
     // The residual is relative to the change of the function, so that its scale does not matter.

@@ -211,8 +211,8 @@ impl RowPass {
     }
 }
 
-/// Returns the first cell where `right` is below `left`. `left` is the lower one in the cell where
-/// it starts, so the two parabolas cross at a non-negative position.
+/// Returns the first cell where the parabola `right` is below the parabola `left`. In the cell
+/// where `left` starts, it must be the lower one, so that the two cross at a non-negative position.
 fn first_cell_below(left: &ParabolaPiece, right: &ParabolaPiece) -> i32 {
     let rise = right.vertex * right.vertex + right.height - left.vertex * left.vertex - left.height;
     let run = 2 * (right.vertex - left.vertex);

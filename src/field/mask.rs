@@ -64,8 +64,8 @@ impl Mask {
         })
     }
 
-    /// Rasterises `regions`: a cell is inside if its centre is inside `regions`. The cost is one
-    /// step per cell, and for each edge one step per row that the edge crosses.
+    /// Rasterises `regions`: a cell is inside if its centre is inside `regions`. The running time
+    /// is proportional to the number of cells, plus the number of rows that each edge crosses.
     ///
     /// # Errors
     /// Returns an error if the grid is invalid, or no cell centre is inside.

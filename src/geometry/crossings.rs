@@ -1,10 +1,10 @@
 //! Finds the proper crossings of closed polygons with themselves and with each other.
 //!
 //! The algorithm is a sweep over the edges along x or y, whichever axis has fewer overlapping edges
-//! (Shamos, Hoey 1976, without their status structure). It takes O(n log n + k) time for n edges of
-//! which k pairs overlap along that axis. Guaranteed: every proper crossing is found, by exact
-//! predicates. Not counted: touching edges, coincident edges, and edges that run exactly through a
-//! vertex.
+//! (Shamos, Hoey 1976, without their tree of active edges). It takes O(n log n + k) time for n
+//! edges of which k pairs overlap along that axis. Guaranteed: every proper crossing is found, by
+//! exact predicates. Not counted: touching edges, coincident edges, and edges that run exactly
+//! through a vertex.
 
 use super::{DVec2, orient2d, segments_cross};
 use serde::Serialize;

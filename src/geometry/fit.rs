@@ -66,7 +66,8 @@ pub(crate) fn fit_affine(points: &[DVec2], places: &[DVec2]) -> DAffine2 {
         scatter += DMat2::from_cols(p * p.x, p * p.y);
         cross_scatter += DMat2::from_cols(q * p.x, q * p.y);
     }
-    // The trace grows with the squared size of the point set, so the test does not depend on scale.
+    // `size`, the trace of the scatter matrix, is the sum of the squared distances from the mean.
+    // The determinant is compared with its square, so the result does not depend on scale.
     let size = scatter.x_axis.x + scatter.y_axis.y;
     let linear = if scatter.determinant() > COLLINEAR_RATIO * size * size {
         cross_scatter * scatter.inverse()

@@ -13,10 +13,10 @@ use i_overlay::core::fill_rule::FillRule as OverlayRule;
 use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::float::simplify::SimplifyShape;
 
-/// Settings of the library's crossing search. The search runs in rounds, each of which joins points
-/// closer than a radius. A `progression` of 4 quadruples the radius from round to round. This is
-/// faster than the library's default, a factor of √2, and bounds the number of rounds for points
-/// that nearly lie on one line (heuristic).
+/// Settings of the crossing search in `i_overlay`. The search runs in rounds, each of which joins
+/// points closer than a radius. A `progression` of 4 quadruples the radius from round to round.
+/// This is faster than the library's default, a factor of √2, and bounds the number of rounds for
+/// points that nearly lie on one line (heuristic).
 const SOLVER: Solver = Solver {
     precision: Precision {
         start: 0,
@@ -89,14 +89,15 @@ pub enum RegionsError {
 }
 
 impl Regions {
-    /// Maximum area of a region or hole that is removed as a sliver, as a fraction of the square of
-    /// the longer side of all rings' bounding box (tolerance: outlines that touch themselves leave
-    /// slivers of about 1e-18).
+    /// Minimum area of a region or hole, as a fraction of the square of the longer side of all
+    /// rings' bounding box; a smaller one is removed as a sliver (tolerance: outlines that touch
+    /// themselves leave slivers of about 1e-18).
     const MIN_RELATIVE_AREA: f64 = 1e-14;
 
-    /// Maximum distance at which a point is merged with the previous one, as a fraction of the
-    /// longer side of all rings' bounding box (tolerance: an outline that ends where it began keeps
-    /// a last edge of about 1e-15, which vanishes when the outline is scaled down).
+    /// Minimum distance between neighbouring points, as a fraction of the longer side of all rings'
+    /// bounding box; a point closer to the previous one is merged with it (tolerance: an outline
+    /// that ends where it began keeps a last edge of about 1e-15, which vanishes when the outline
+    /// is scaled down).
     const MIN_RELATIVE_EDGE: f64 = 1e-12;
 
     /// Creates regions from rings. The fill rule resolves self-crossings, overlaps, duplicates and
@@ -265,7 +266,8 @@ fn check_range(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
     Ok(())
 }
 
-/// Limits below which contours and edges are removed as slivers.
+/// Limits for removing slivers: contours with at most the area `area`, or too thin by
+/// `leftover_test`, are removed. Points at most `edge` apart are merged.
 struct SliverLimits {
     area: f64,
     edge: f64,

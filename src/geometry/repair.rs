@@ -1,9 +1,9 @@
 //! Finds defects of outlines before they are cleaned: crossings, touches, duplicates, outlines
 //! without area, and idle points (points that change nothing).
 //!
-//! Edges are compared by a sweep along x (Shamos and Hoey 1976, with a list instead of the tree)
-//! and exact predicates. The sweep may make 500 comparisons per edge; if that is not enough, the
-//! counts are lower bounds and [`Repairs::at_least`] is set.
+//! Edges are compared by a sweep along x (Shamos and Hoey 1976, with a list instead of their tree
+//! of active edges) and exact predicates. The sweep may make 500 comparisons per edge; if that is
+//! not enough, the counts are lower bounds and [`Repairs::at_least`] is set.
 //!
 //! A contact at a corner of both edges is not counted, because outlines may touch that way.
 

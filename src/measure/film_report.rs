@@ -334,7 +334,7 @@ fn asymmetry(
         return Ok(None);
     };
     // The reversed film uses the same rotation angles, including whole turns. So the result
-    // measures the asymmetry of the energy, not of the choice of angles.
+    // measures the asymmetry of the energy that rigid parts minimise, not of the choice of angles.
     let reversed = match arap.swapped(progress) {
         Ok(reversed) => reversed,
         Err(ArapError::Cancelled(cancelled)) => return Err(cancelled),

@@ -18,7 +18,7 @@ pub struct SpaceReport {
     pub vertices: Option<usize>,
     /// Number of faces of the common mesh; `None` without one.
     pub faces: Option<usize>,
-    /// Deviations from the request, each as a sentence.
+    /// Notes of the space, each as a sentence.
     pub notes: Vec<String>,
     /// Measures of the blends of each pair of designs, one report per pair.
     pub edges: Vec<EdgeReport>,

@@ -6,8 +6,8 @@
 use super::edges::{sides, undirected};
 use std::collections::HashMap;
 
-/// Maximum number of vertices after subdivision (resource limit: the factored system of a mesh of
-/// this size takes about 4 GB).
+/// Maximum number of vertices after subdivision (resource limit: the factored linear system of a
+/// warp with so many vertices takes about 4 GB).
 pub const MAX_VERTICES: usize = 4_000_000;
 
 /// Maximum number of rounds of subdivision (derived: a single triangle has 2 million vertices after

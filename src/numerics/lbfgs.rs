@@ -8,8 +8,8 @@
 
 use crate::work::progress::Progress;
 
-/// Maximum number of remembered steps with their gradient changes (cited: the literature uses 3 to
-/// 20; each remembered step adds two passes over all unknowns).
+/// Maximum number of earlier steps that are remembered, each with the change of the gradient along
+/// it (cited: the literature uses 3 to 20; each remembered step adds two passes over all unknowns).
 const MEMORY: usize = 12;
 /// Minimum decrease of the function along a step, as a fraction of the decrease that the slope at
 /// the start of the step predicts (Armijo condition; cited: Nocedal, Wright, "Numerical
@@ -64,7 +64,7 @@ pub(crate) fn minimise(
     value
 }
 
-/// A step and the change of the gradient along it.
+/// Step of the minimisation, and the change of the gradient along it.
 struct CurvaturePair {
     step: Vec<f64>,
     /// Change of the gradient along the step.
@@ -92,7 +92,7 @@ fn add_scaled(a: &mut [f64], by: f64, b: &[f64]) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a += by * b);
 }
 
-/// Returns the descent direction by the two-loop recursion.
+/// Returns the descent direction of L-BFGS, by the two-loop recursion over the remembered steps.
 fn direction(
     memory: &[CurvaturePair],
     gradient: &[f64],
@@ -100,7 +100,7 @@ fn direction(
 ) -> Vec<f64> {
     let mut d: Vec<f64> = gradient.iter().map(|g| -g).collect();
     let mut shares = Vec::with_capacity(memory.len());
-    // The first loop runs from the newest pair to the oldest.
+    // The first loop runs from the newest remembered step to the oldest.
     for pair in memory.iter().rev() {
         let share = dot(&pair.step, &d) / pair.product;
         add_scaled(&mut d, -share, &pair.change);
@@ -110,7 +110,7 @@ fn direction(
     precondition(&mut d);
     let scale = memory.last().map_or(1.0, |last| last.scale);
     d.iter_mut().for_each(|d| *d *= scale);
-    // The second loop runs from the oldest pair to the newest.
+    // The second loop runs from the oldest remembered step to the newest.
     for (pair, share) in memory.iter().zip(shares.iter().rev()) {
         let back = dot(&pair.change, &d) / pair.product;
         add_scaled(&mut d, share - back, &pair.step);
@@ -144,7 +144,7 @@ fn search(
         };
         add_scaled(&mut trial.x, length, direction);
         trial.value = function(&trial.x, &mut trial.gradient);
-        // Beyond a barrier the value is infinite or NaN, which does not count as descent.
+        // Where the function is infinite or NaN, its value does not count as descent.
         let descends = trial.value <= value + DECREASE * length * slope;
         if !descends {
             high = length;

@@ -280,7 +280,8 @@ impl LoadedProject {
                 let mut methods =
                     TransitionMethod::all().filter(|method| method.content() == content);
                 let chosen = match content {
-                    // The last method has no warp. The others may need pins or lines.
+                    // The last of these methods has no warp. The others may need pins or lines, so
+                    // they are not chosen by default.
                     ContentKind::Field | ContentKind::Colours => methods.last(),
                     ContentKind::Solid => methods.next(),
                 };
@@ -359,8 +360,8 @@ impl LoadedProject {
         let mut method = self.method().map_err(BuildError::from)?;
         let is_requested = project.warp.is_some() || project.content.is_some();
         if !is_requested && self.designs.iter().any(|design| design.picture.is_none()) {
-            // The default method depends only on the first two designs, but at least one design is
-            // not a picture.
+            // The default method depends only on the first two designs, so it may be one for
+            // pictures. Here at least one design is not a picture.
             method = TransitionMethod::RIGID_PARTS;
         }
         if !supports_spaces(method) {

@@ -231,7 +231,8 @@ impl Project {
         self.set_segment_records(records);
         self.map.sites = moved_sites(&old.map.sites, &origins);
         if self.follows_path() {
-            // The times of a path do not depend on the order of the designs.
+            // The timing and the stops of a film along a path do not depend on the order of the
+            // designs.
             return;
         }
         self.stops = moved_stops(&old, &origins, &old_pairs);

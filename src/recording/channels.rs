@@ -43,7 +43,7 @@ impl PlacementChannel {
 }
 
 impl MovingChannels {
-    /// Adds the channels (position lists) in which two placements differ.
+    /// Returns this set with the channels (position lists) added in which two placements differ.
     pub(super) fn with_changes(self, first: &Placement, other: &Placement) -> Self {
         let differs = |channel: PlacementChannel| channel.of(other) != channel.of(first);
         Self {

@@ -36,20 +36,20 @@ pub(super) struct RecordingInterval {
     /// The t at which the interval ends.
     pub to: f64,
     arch: Arch,
-    /// Number of coefficients of a vertex in double precision, and number of its coefficients in
-    /// single precision; the same for all vertices.
+    /// Number of polynomial coefficients of a vertex in double precision, and number of its
+    /// coefficients in single precision; the same for all vertices.
     counts: [usize; 2],
-    /// For each block: the rows of positions at both ends, then the rows of double-precision
-    /// coefficients.
+    /// For each block: the rows of positions at both ends of the interval, then the rows of
+    /// polynomial coefficients in double precision.
     full: Vec<BlockRow>,
-    /// For each block: the rows of single-precision coefficients.
+    /// For each block: the rows of polynomial coefficients in single precision.
     narrow: Vec<NarrowBlockRow>,
 }
 
 impl RecordingInterval {
-    /// Builds an interval from the positions at its ends and from all coefficients, block by block.
-    /// The first `full_count` coefficients of each vertex stay in double precision; the others are
-    /// rounded to single precision.
+    /// Builds an interval from the positions at its ends and from all polynomial coefficients,
+    /// block by block. The first `full_count` coefficients of each vertex stay in double precision;
+    /// the others are rounded to single precision.
     pub(super) fn new(
         [from, to]: [f64; 2],
         ends: [&[BlockRow]; 2],
@@ -78,7 +78,7 @@ impl RecordingInterval {
         interval
     }
 
-    /// Returns the number of coefficients that each vertex has.
+    /// Returns the number of coefficients of each vertex's polynomial.
     pub(super) fn coefficient_count(&self) -> usize {
         self.counts[0] + self.counts[1]
     }
@@ -90,8 +90,8 @@ impl RecordingInterval {
         [0, 1].map(|end| point(&self.full[first + end], vertex))
     }
 
-    /// Returns coefficient `k` of one vertex. `vertex` is its index among the vertices of all
-    /// blocks.
+    /// Returns coefficient `k` of the polynomial of one vertex. `vertex` is its index among the
+    /// vertices of all blocks.
     pub(super) fn coefficient(&self, vertex: usize, k: usize) -> DVec2 {
         let ([full, narrow], block) = (self.counts, vertex / BLOCK);
         if k < full {
@@ -103,7 +103,7 @@ impl RecordingInterval {
     }
 
     /// Returns row `k` of a block in double precision. Rows 0 and 1 are the positions at both ends
-    /// of the interval, the other rows the coefficients.
+    /// of the interval, the other rows are the polynomial coefficients.
     #[cfg(feature = "bevy")]
     pub(super) fn row(&self, block: usize, k: usize) -> BlockRow {
         let [full, narrow] = self.counts;
@@ -118,7 +118,7 @@ impl RecordingInterval {
         (t - self.from) / (self.to - self.from)
     }
 
-    /// Returns the size of the end positions and coefficients in bytes.
+    /// Returns the size of the end positions and polynomial coefficients in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(&self.full[..]) + size_of_val(&self.narrow[..])
     }

@@ -82,7 +82,7 @@ pub(super) fn basis(n: usize, s: f64) -> [f64; MAX_NODES] {
 }
 
 /// Returns the rows of the matrix that converts the values of a function at the first `n` nodes to
-/// its coefficients c_k.
+/// the coefficients c_k of its series b(s) Σ c_k T_k(2s − 1).
 pub(super) fn coefficients_from_values(n: usize) -> Vec<Vec<f64>> {
     // Column k contains the values of basis function k at all nodes.
     let at_nodes: Vec<[f64; MAX_NODES]> = nodes()[..n].iter().map(|&s| basis(n, s)).collect();

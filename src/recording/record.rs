@@ -32,10 +32,10 @@ const SAME_TIME: f64 = 1e-12;
 /// section, even a motion that returns to its start is hardly ever exactly there).
 const PROBE_FRACTION: f64 = 0.381_966;
 
-/// Fraction of the tolerance that may be used up by the rounding of small coefficients to single
-/// precision (heuristic).
+/// Fraction of the tolerance that may be used up by the rounding of small polynomial coefficients
+/// to single precision (heuristic).
 const ROUNDING_SHARE: f64 = 0.1;
-/// Fraction of the tolerance that may be used up by omitted coefficients (heuristic).
+/// Fraction of the tolerance that may be used up by omitted polynomial coefficients (heuristic).
 const OMISSION_SHARE: f64 = 0.1;
 
 /// Reason why a warp could not be recorded.
@@ -106,7 +106,7 @@ pub(super) fn record(
     })
 }
 
-/// State of a recording in progress.
+/// Recording in progress, with the intervals recorded so far.
 struct WarpRecorder<'a> {
     /// Two placers, so that a pair of nodes is evaluated in parallel.
     placers: [Placer; 2],
@@ -255,9 +255,9 @@ impl<'a> WarpRecorder<'a> {
     }
 
     /// Stores as an interval the polynomials through `samples`, the deviations from the straight
-    /// line at the first nodes. Trailing coefficients that are small enough are omitted. Of the
-    /// coefficients that remain, the small ones at the end are stored in single precision, the
-    /// others in double precision. `off` is the measured error of the polynomials.
+    /// line at the first nodes. Trailing coefficients of the polynomials that are small enough are
+    /// omitted. Of the coefficients that remain, the small ones at the end are stored in single
+    /// precision, the others in double precision. `off` is the measured error of the polynomials.
     ///
     /// # Errors
     /// [`RecordingError`] if the interval exceeds the memory limit or the work is cancelled.
@@ -272,7 +272,8 @@ impl<'a> WarpRecorder<'a> {
         let coefficients = coefficients(samples);
         let n = samples.len();
         let largest = max_lengths(&coefficients, n);
-        // Trailing coefficients are omitted as long as their sum stays small enough.
+        // Trailing coefficients are omitted as long as the sum of their largest lengths is within
+        // the fraction `OMISSION_SHARE` of the tolerance.
         let mut omitted = 0.0;
         let mut stored = n;
         while stored > 0 && omitted + largest[stored - 1] <= OMISSION_SHARE * self.tolerance() {
@@ -398,7 +399,8 @@ fn coefficients(samples: &[PositionBlocks]) -> Vec<BlockRow> {
     coefficients
 }
 
-/// Returns, for each of the `n` coefficients, the length of its longest vector over all vertices.
+/// Returns, for each of the `n` polynomial coefficients, the length of its longest vector over all
+/// vertices.
 fn max_lengths(coefficients: &[BlockRow], n: usize) -> Vec<f64> {
     let none = || vec![0.0_f64; n];
     let of_blocks = coefficients.par_chunks(n.max(1));

@@ -1,7 +1,8 @@
 //! Time intervals of a recording in single precision, laid out for evaluation on a graphics card.
 //!
 //! The position of a vertex is `near end + share · (other end − near end) + Σ weight ·
-//! coefficient`, relative to a common origin. The near end is the end of the interval to which t is
+//! coefficient`, relative to a common origin. The sum Σ runs over the coefficients of the vertex's
+//! polynomial; their weights depend on t. The near end is the end of the interval to which t is
 //! closer, and `share` is the fraction of the interval between the near end and t. Both ends are
 //! therefore exact, and vertices that do not move do not jitter.
 //!
@@ -22,10 +23,10 @@ const RELATIVE_ROUNDING: f64 = f32::EPSILON as f64 / 2.0;
 pub(crate) struct SinglePrecisionInterval {
     /// Number of entries in a row: the number of vertices, rounded up to whole blocks.
     pub vertices: usize,
-    /// Number of coefficients of each vertex; each is a row of `numbers`.
+    /// Number of polynomial coefficients of each vertex; each is a row of `numbers`.
     pub coefficients: usize,
-    /// x and y of each vertex, row after row: first the positions at both ends, then the
-    /// coefficients.
+    /// x and y of each vertex, row after row: first the positions at both ends of the interval,
+    /// then the polynomial coefficients.
     pub numbers: Vec<[f32; 2]>,
 }
 
@@ -37,7 +38,7 @@ pub(crate) struct IntervalWeights {
     /// of the position at the end of the interval, the second one that of the position at its
     /// beginning.
     pub shares: [f32; 2],
-    /// Weight of each row of coefficients.
+    /// Weight of each row of polynomial coefficients.
     pub coefficients: [f32; MAX_NODES],
 }
 
@@ -85,8 +86,8 @@ impl RecordingData {
         let vertices = blocks * BLOCK;
         let mut numbers = Vec::with_capacity(vertices * (2 + coefficients));
         for k in 0..2 + coefficients {
-            // Positions are relative to the origin. Coefficients are differences, which the origin
-            // does not affect.
+            // Positions are relative to the origin. Polynomial coefficients describe deviations,
+            // which the origin does not affect.
             let from = if k < 2 { origin } else { DVec2::ZERO };
             numbers.extend((0..blocks).flat_map(|block| {
                 let row = interval.row(block, k);
@@ -111,8 +112,8 @@ fn weights(interval: &RecordingInterval, t: f64) -> IntervalWeights {
     }
 }
 
-/// Returns the number of coefficients to keep. The omitted ones together change a position by no
-/// more than the rounding of positions to single precision.
+/// Returns the number of polynomial coefficients to keep. The omitted ones together change a
+/// position by no more than the rounding of positions to single precision.
 fn visible_coefficients(interval: &RecordingInterval, vertices: usize, origin: DVec2) -> usize {
     let longest = |k: usize, from: DVec2| {
         let rows = (0..block_count(vertices)).flat_map(|block| interval.row(block, k));
@@ -218,7 +219,7 @@ mod tests {
                 .single_precision_intervals(vertices, middle)
                 .collect();
             assert!(singles.len() == recording.interval_count() && singles.len() > 1);
-            // Some coefficients are too small for single precision and are omitted.
+            // Some polynomial coefficients are too small for single precision and are omitted.
             let known = recording
                 .0
                 .intervals

@@ -96,8 +96,8 @@ impl SpaceSpec {
 }
 
 impl DesignSpace {
-    /// Builds a space: matches, triangulates and factors the designs, computes their distance
-    /// fields, or prepares their pictures.
+    /// Builds a space. For rigid parts, matches and triangulates the designs and factors the
+    /// equations of their blends. Otherwise, computes distance fields or prepares pictures.
     ///
     /// # Errors
     /// [`SpaceError`] says why the designs are incompatible, or that the work was cancelled.
@@ -177,13 +177,13 @@ impl DesignSpace {
     }
 }
 
-/// Basis of the common mesh of the designs, and the dissimilarities of the designs.
+/// Way to obtain the common mesh of the designs, and their dissimilarities.
 struct BuiltContent {
     form: CommonForms,
     distances: DesignDistances,
 }
 
-/// Basis of the common mesh of the designs.
+/// Way to obtain the common mesh of the designs.
 enum CommonForms {
     /// The common mesh, or why there is none, and the bars of trusses. This variant is used for
     /// trusses, for meshes with common connectivity, and for outlines with too many points to be
@@ -206,7 +206,7 @@ impl BuiltContent {
             .map(|design| outline(design, bar_width, progress));
         let outlines: Vec<Regions> = outlines.collect::<Result<_, _>>()?;
         // Only two designs at a time are matched, so the limit applies to the points of two
-        // designs.
+        // designs. Only consecutive designs are checked.
         for pair in outlines.windows(2) {
             let rings = pair.iter().flat_map(Regions::rings);
             let points = rings.map(|ring| ring.points().len()).sum();
@@ -223,8 +223,8 @@ impl BuiltContent {
         })
     }
 
-    /// Returns the common mesh of trusses, or of meshes with equal numbers of points; `None` for
-    /// other designs.
+    /// Returns the common mesh and the dissimilarities of trusses or of meshes; `None` for other
+    /// designs, or if the numbers of points differ.
     fn from_common_connectivity(
         designs: &[Arc<Design>],
         progress: &dyn Progress,

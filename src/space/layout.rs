@@ -113,7 +113,8 @@ fn multidimensional_scaling(distances: &DesignDistances) -> Vec<DVec2> {
 /// The sites are centred about the centre of the circle, not about their mean. With the mean, a
 /// single outlier would push the other sites into a corner.
 fn fit_to_unit_circle(sites: &mut [DVec2]) -> f64 {
-    /// Number of iterations (tolerance: the centre is then within a hundredth of the radius).
+    /// Number of times that the centre of the circle is moved (tolerance: the centre is then within
+    /// a hundredth of the radius).
     const ROUNDS: usize = 100;
     let farthest = |from: DVec2| {
         let distance = |a: &DVec2| a.distance_squared(from);
@@ -136,9 +137,10 @@ fn fit_to_unit_circle(sites: &mut [DVec2]) -> f64 {
     radius
 }
 
-/// Pushes sites apart that are too close to each other, a little in every round.
+/// Pushes sites apart that are closer than the minimum distance, one pair after the other.
 fn push_apart(sites: &mut [DVec2]) {
-    /// Maximum number of rounds (resource limit: twelve coincident sites need about twenty).
+    /// Maximum number of passes over all pairs of sites (resource limit: twelve coincident sites
+    /// need about twenty).
     const ROUNDS: usize = 200;
     let min_distance = MIN_SITE_DISTANCE.min(CROWDED_DISTANCE / (sites.len() as f64).sqrt());
     for _ in 0..ROUNDS {

@@ -83,7 +83,8 @@ pub struct MapCurve {
 /// Cubic curve from one waypoint to the next.
 #[derive(Clone, Debug)]
 struct CurveSpan {
-    /// Coefficients of 1, u, u² and u³ of the position, for u in [0, 1].
+    /// Coefficients of 1, u, u² and u³ in the polynomial that gives the position at u, for u from 0
+    /// to 1.
     cubic: [DVec2; 4],
     /// Exact position at u = 1. If it were computed from `cubic`, a rounding error could make the
     /// curve miss the site of a design.
@@ -231,7 +232,8 @@ pub fn simplify_polyline(line: &[DVec2], tolerance: f64) -> Vec<DVec2> {
     }
 }
 
-/// Returns the cubic curve from waypoint k − 1 to waypoint k, as coefficients of 1, u, u² and u³.
+/// Returns the cubic curve from waypoint k − 1 to waypoint k: the coefficients of 1, u, u² and u³
+/// in the polynomial that gives the position at u, for u in [0, 1].
 fn cubic(places: &[DVec2], k: usize) -> [DVec2; 4] {
     let last = places.len() - 1;
     let is_closed = last > 1 && places[0] == places[last];

@@ -38,8 +38,8 @@ pub struct SteeredTransition {
 }
 
 impl SteeredTransition {
-    /// Creates the transition with weight 1 on the first design. Returns `None` unless the space is
-    /// blended as rigid parts.
+    /// Creates the transition with weight 1 on the first design. Returns `None` unless the content
+    /// of the space is solid (`BlendContent::Solid`), that is, blended as rigid parts.
     #[must_use]
     pub fn new(space: &DesignSpace) -> Option<Self> {
         let BlendContent::Solid {

@@ -95,7 +95,7 @@ fn the_order_of_the_designs_hardly_affects_blends() {
     let first = blend_points(vec![a.clone(), b.clone(), c.clone()], [0.5, 0.3, 0.2]);
     let reordered = blend_points(vec![c, a, b], [0.2, 0.5, 0.3]);
     assert_eq!(first.len(), reordered.len());
-    // The points are only similar, because the mesh starts from a different design.
+    // Single points may differ between the two meshes, so only the bounding boxes are compared.
     let bounds = |points: &[DVec2]| Bounds::of(points.iter().copied()).expect("points");
     let (p, q) = (bounds(&first), bounds(&reordered));
     assert!(p.min.distance(q.min) < 0.1 && p.max.distance(q.max) < 0.1);
@@ -146,7 +146,7 @@ fn designs_without_a_common_mesh_are_blended_as_fields() {
     };
     let error = DesignSpace::build(&spec, &Silent).expect_err("no common mesh");
     assert!(matches!(error, SpaceError::NoCommonMesh(_)), "{error}");
-    // Two squares with a hole have a common mesh if there is no other design.
+    // Without the star, the two squares with a hole have a common mesh.
     let frames = space(vec![frame("thin", 2.5), frame("thick", 1.0)]);
     assert!(frames.family().is_some());
 }
@@ -257,7 +257,8 @@ fn path_through(places: &[DVec2]) -> MapPath {
 #[test]
 #[ignore = "slow; run by scripts/test"]
 fn a_path_shows_the_blends_along_it() {
-    // The blends of these designs do not fold. A correction of folds would not be smooth in t.
+    // The blends of these designs do not fold, so no face is unfolded, which would make the motion
+    // less smooth in t.
     let space = space(vec![
         star("a", 5, 1.5),
         star("b", 6, 0.8),

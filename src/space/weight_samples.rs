@@ -13,7 +13,8 @@
 #[must_use]
 pub fn weight_sample(k: usize, count: usize) -> Vec<f64> {
     let mut root = 1.5_f64;
-    // The fixed-point iteration converges to machine precision in about thirty rounds.
+    // The iteration x ← (1 + x)^(1 / (count + 1)) reaches machine precision after about thirty
+    // repetitions.
     for _ in 0..60 {
         root = (1.0 + root).powf(1.0 / (count as f64 + 1.0));
     }

@@ -2,8 +2,8 @@
 //! for each finished build and for each transition that was built elsewhere.
 //!
 //! Guaranteed: the main thread never waits. A build is cancelled when its entity is despawned or a
-//! newer build replaces it; its result is then dropped. The previous picture stays until the new
-//! transition is ready, and also if the build fails.
+//! newer build replaces it; its result is then dropped. The previous transition is shown until the
+//! new one is ready, and also if the build fails.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,10 +1,9 @@
 //! Components of a transition on the stage: those that a program spawns and those that the plugin
 //! adds.
 //!
-//! Guaranteed: removing the [`Morph`] removes the picture, and a new transition replaces the whole
-//! picture. Not guaranteed: that removing the meshes or the [`StageTransition`] removes the
-//! picture; the [`Morph`] stays. While a new transition is being built, the entity shows its
-//! previous picture, or nothing.
+//! Guaranteed: removing the [`Morph`] removes everything that is drawn for the entity. Removing
+//! only the meshes or the [`StageTransition`] removes nothing, because the [`Morph`] stays. While a
+//! new transition is being built, the entity shows its previous transition, or nothing.
 
 use bevy::prelude::*;
 
@@ -31,7 +30,7 @@ pub struct SourceMesh(pub TriangleMesh);
 pub struct TargetMesh(pub TriangleMesh);
 
 /// Blend parameter of an entity: 0 is the source, 1 the target, values outside [0, 1] extrapolate.
-/// NaN and infinity leave the picture unchanged.
+/// NaN and infinity are ignored.
 ///
 /// ```
 /// use morphospace::stage::Blend;
@@ -71,7 +70,7 @@ impl Morph {
 /// A transition of any kind that the program has built itself.
 ///
 /// The plugin adds a [`Morph`] and, if the transition has faces, a [`SourceMesh`] and a
-/// [`TargetMesh`] to the entity. Replacing the component replaces the picture.
+/// [`TargetMesh`] to the entity. Replacing the component replaces the transition that is shown.
 #[derive(Component, Clone, Debug, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug)]
@@ -123,7 +122,8 @@ impl Default for StageVisibility {
     }
 }
 
-/// Event on an entity whose transition could not be built. The entity keeps its previous picture.
+/// Event on an entity whose transition could not be built. The entity still shows its previous
+/// transition, if it had one.
 #[derive(EntityEvent, Debug)]
 pub struct BuildFailed {
     /// Entity whose build failed.

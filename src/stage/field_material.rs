@@ -29,8 +29,8 @@ const INSIDE: Srgba = Srgba::rgb(0.878, 0.51, 0.078);
 /// Colour of negative blended distances: violet.
 const OUTSIDE: Srgba = Srgba::rgb(0.502, 0.451, 0.675);
 
-/// Number of lines of equal distance per length of the grid's longer side: the distances of
-/// neighbouring lines differ by that length, in cells, divided by this number (heuristic).
+/// Divisor for the spacing of the lines of equal distance: the distances of neighbouring lines
+/// differ by the length of the grid's longer side, in cells, divided by this number (heuristic).
 const ISO_LINES: f32 = 40.0;
 
 /// Material with two distance fields, and with the way in which they are blended and drawn.

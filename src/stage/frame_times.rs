@@ -61,8 +61,8 @@ impl DurationHistory {
 #[derive(Resource, Clone, Debug, Default, Reflect)]
 #[reflect(Resource, Clone, Debug, Default)]
 pub struct FrameTimes {
-    /// CPU time per frame to compute all vertices: right-hand sides, back substitution and
-    /// placement.
+    /// CPU time per frame to compute all vertices: the right-hand sides of the linear system of the
+    /// warp, its solution, and the placement.
     pub solve: DurationHistory,
     /// CPU time per frame to write render meshes and uniforms.
     pub draw: DurationHistory,

@@ -2,7 +2,7 @@
 //! faces in several paint layers.
 //!
 //! Guaranteed: edges are smooth at any zoom. The width of lines does not depend on the zoom; it is
-//! proportional to the height of the picture, so that a capture in 4K looks like the window. Faces
+//! proportional to the height of the image, so that a capture in 4K looks like the window. Faces
 //! are visible from both sides.
 
 use bevy::asset::embedded_path;

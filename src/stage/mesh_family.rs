@@ -1,7 +1,7 @@
 //! Blends of several meshes with the same faces, or of several designs, by weights.
 //!
-//! Guaranteed: the picture shows the blend for the weights of the current update. The picture stays
-//! unchanged if a weight is not finite or the number of weights is not that of the meshes.
+//! Guaranteed: an entity shows the blend for the weights of the current update. The weights are
+//! ignored if one of them is not finite, or if their number is not that of the meshes or designs.
 
 use std::sync::Arc;
 

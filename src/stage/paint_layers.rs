@@ -14,7 +14,7 @@ use super::line_mesh;
 use super::ring_fill::triangulate;
 use super::vertices::write_points;
 
-/// State of the render mesh of a solid or of distance fields with paint layers.
+/// Writer of the render mesh of a solid or of distance fields with paint layers.
 #[derive(Clone, Debug)]
 pub(super) struct LayerMesh {
     /// Faces of the placement, by layer; they do not change from frame to frame. `None` for
@@ -46,7 +46,7 @@ enum LayerInkSlot {
 }
 
 impl LayerMesh {
-    /// Returns the state for distance fields with paint layers.
+    /// Creates the writer for distance fields with paint layers.
     pub(super) fn of_fields() -> Self {
         Self {
             faces: None,
@@ -55,7 +55,7 @@ impl LayerMesh {
         }
     }
 
-    /// Returns the state for a solid with the paint layers in `stack`.
+    /// Creates the writer for a solid with the paint layers in `stack`.
     pub(super) fn of_solid(frame: &Frame, solid: &SolidContent, stack: &PaintLayerStack) -> Self {
         // Faces cannot represent transient parts and holes. Nor can they represent layers in which
         // the paint differs between boundary loops, which happens if parts have separate times or
@@ -116,7 +116,7 @@ impl LayerMesh {
             let places = &placement.in_frame;
             layers.positions.resize(places.len(), [0.0; 3]);
             write_points(places, origin, &mut layers.positions);
-            // If faces are drawn, each layer has exactly one group of boundary loops.
+            // If faces are drawn, `groups` has exactly one entry per paint layer.
             let mut ink_of_layer = vec![LayerInkSlot::Flat([0.0; 4]); groups.len()];
             for (inked, &ink) in groups.iter().zip(&inks) {
                 ink_of_layer[inked.layer] = ink;

@@ -1,5 +1,5 @@
-//! Tracks whether all render pipelines that the picture needs are compiled. Until then, shapes are
-//! missing from the picture.
+//! Tracks whether all render pipelines that the stage needs are compiled. Until then, shapes are
+//! missing from the stage.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -8,9 +8,10 @@ use bevy::prelude::*;
 use bevy::render::render_resource::PipelineCache;
 use bevy::render::{Render, RenderApp, RenderSystems};
 
-/// Number of consecutive frames without a missing pipeline after which the picture is complete.
-/// Derived: the first frame may have been extracted before the count was restarted, the second one
-/// queues the missing pipelines, and the third one is drawn with them.
+/// Number of consecutive frames without a missing pipeline after which no shape is missing from the
+/// stage. Derived: the first of these frames may have been passed to the render world before the
+/// count was restarted, the second one queues the missing pipelines, and the third one is drawn
+/// with them.
 const READY_FRAMES: u32 = 3;
 
 /// Number of consecutive frames without missing pipelines so far. Bevy's main and render worlds
@@ -27,7 +28,7 @@ impl PipelinesReady {
         self.0.store(0, Ordering::Relaxed);
     }
 
-    /// Returns whether all pipelines are compiled, so that pictures are complete.
+    /// Returns whether all pipelines are compiled, so that no shape is missing from the stage.
     #[must_use]
     pub fn is_ready(&self) -> bool {
         self.0.load(Ordering::Relaxed) >= READY_FRAMES

@@ -26,7 +26,8 @@ pub(super) const VERTEX_INDEX: MeshVertexAttribute = MeshVertexAttribute::new(
     VertexFormat::Uint32,
 );
 
-/// Number of four-component vectors that are needed for [`MOST_COEFFICIENTS`] weights.
+/// Number of four-component vectors that hold one weight for each row of polynomial coefficients. A
+/// recorded interval has at most [`MOST_COEFFICIENTS`] such rows.
 const WEIGHT_VECTORS: usize = MOST_COEFFICIENTS.div_ceil(4);
 
 /// Material with one opaque colour for faces or their edges, and with the recorded interval that
@@ -39,24 +40,26 @@ pub(super) struct RecordedMaterial {
     #[uniform(3)]
     pub(super) sum: RecordedSum,
     /// Recorded interval, as rows with one entry per vertex: the positions at the beginning of the
-    /// interval, those at its end, then the polynomial coefficients.
+    /// interval, those at its end, then the coefficients of the polynomial by which the vertex
+    /// deviates from the straight line between these two positions.
     #[storage(4, read_only, buffer, visibility(vertex))]
     pub(super) reel: Buffer,
     pub(super) kind: InkKind,
 }
 
-/// Numbers with which the shader combines the rows of a recorded interval at t. The members are the
-/// same as in `played.wgsl`.
+/// Numbers from which the shader computes the vertex positions at t: the number of rows of a
+/// recorded interval, and the weights with which it sums them. The members are the same as in
+/// `played.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
 pub(super) struct RecordedSum {
-    /// Weights of the coefficient rows, four per vector.
+    /// Weights at t of the rows of polynomial coefficients, four per vector.
     weights: [Vec4; WEIGHT_VECTORS],
     /// Distance of t from the beginning of the interval and from its end, as fractions of the
     /// interval's length. They sum to 1.
     shares: Vec2,
-    /// Number of coefficient rows.
+    /// Number of rows of polynomial coefficients.
     coefficients: u32,
-    /// Number of vertices per row; 0 makes the shader use the positions of the mesh instead.
+    /// Number of entries in a row; 0 makes the shader use the positions of the mesh instead.
     vertices: u32,
 }
 

@@ -1,10 +1,10 @@
 //! Uploads recordings to the graphics card, in single precision, so that the card computes vertex
 //! positions by itself.
 //!
-//! Guaranteed: nothing waits for an upload, and the picture looks the same before and after it. If
-//! a recording does not fit into the memory of the card, the CPU computes the vertices. Not
-//! guaranteed: playback after the graphics device was lost and recreated; the program must then
-//! put its transitions on the stage again.
+//! Guaranteed: nothing waits for an upload, and the stage looks the same before and after it. If a
+//! recording does not fit into the memory of the card, the CPU computes the vertices. Not
+//! guaranteed: playback after the graphics device was lost and recreated; the program must then put
+//! its transitions on the stage again.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::{Buffer, BufferInitDescriptor, BufferUsages, DownlevelFlags};
@@ -101,7 +101,8 @@ pub(super) fn start_uploads(
     }
 }
 
-/// Updates the state of morphs whose upload has finished.
+/// Replaces each [`UploadState::Uploading`] whose upload has ended by `Ready`, or by `Refused` if
+/// the recording did not fit into the memory of the graphics card.
 pub(super) fn finish_uploads(mut uploads: Query<&mut UploadState>) {
     for mut state in &mut uploads {
         if let UploadState::Uploading(task) = state.bypass_change_detection()

@@ -72,16 +72,16 @@ impl StageView {
         self.anchor = self.centre;
     }
 
-    /// Moves the view so that the picture follows a pointer that has moved by `delta_px` logical
-    /// pixels, y down.
+    /// Moves the view so that the shown plane follows a pointer that has moved by `delta_px`
+    /// logical pixels, y down.
     pub fn pan_px(&mut self, delta_px: Vec2) {
         let delta = DVec2::new(-f64::from(delta_px.x), f64::from(delta_px.y));
         self.centre += delta * self.units_per_px;
     }
 
-    /// Magnifies the picture by `factor` and keeps the point under the pointer in place. The scale
-    /// is limited relative to that of the last fit. Factors that are not positive and finite are
-    /// ignored.
+    /// Magnifies the shown plane by `factor` and keeps the point under the pointer in place. The
+    /// scale is limited relative to that of the last fit. Factors that are not positive and finite
+    /// are ignored.
     pub fn zoom_at(&mut self, pointer_px: Vec2, factor: f64) {
         if !factor.is_finite() || factor <= 0.0 {
             return;
@@ -125,8 +125,8 @@ impl StageView {
     }
 }
 
-/// Returns the smallest scale, in units per pixel, at which a picture of the given size shows all
-/// of `bounds`; 1 for bounds without extent.
+/// Returns the smallest scale, in units per pixel, at which an image of the given size shows all of
+/// `bounds`; 1 for bounds without extent.
 pub(super) fn units_per_px(bounds: Bounds, size_px: Vec2) -> f64 {
     let scale = (bounds.size() / size_px.as_dvec2()).max_element();
     if scale.is_finite() && scale > 0.0 {

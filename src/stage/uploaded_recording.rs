@@ -1,5 +1,5 @@
-//! State of the upload of a recording to the graphics card, and lookup of the uploaded interval at
-//! a given t.
+//! Recordings that are being uploaded to the graphics card or have been uploaded, and lookup of the
+//! uploaded interval at a given t.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::Buffer;
@@ -9,7 +9,7 @@ use crate::recording::Recording;
 
 use super::recorded_material::RecordedSum;
 
-/// State of the upload of a transition's recording.
+/// Whether the upload of a transition's recording is running, has finished, or was refused.
 #[derive(Component, Debug)]
 pub(super) enum UploadState {
     /// The upload is running.
@@ -23,21 +23,23 @@ pub(super) enum UploadState {
 /// A recording whose intervals are on the graphics card.
 #[derive(Debug)]
 pub(super) struct UploadedIntervals {
-    /// The recording, which provides the weights of the coefficients at each t.
+    /// The recording. At each t it provides the weights with which the shader sums the rows of an
+    /// interval.
     pub(super) recording: Recording,
-    /// For each interval of the recording: its uploaded form.
+    /// All intervals of the recording, in its order.
     pub(super) intervals: Vec<UploadedInterval>,
 }
 
 /// One interval of a recording on the graphics card: the polynomials of all vertices.
 #[derive(Debug)]
 pub(super) struct UploadedInterval {
-    /// Buffer with the rows that `played.wgsl` reads: the positions at both ends of the interval,
-    /// then the polynomial coefficients.
+    /// Buffer with the rows that `played.wgsl` reads: the positions at the beginning and at the end
+    /// of the interval, then the polynomial coefficients.
     pub(super) rows: Buffer,
-    /// Number of entries in a row: one per vertex.
+    /// Number of entries in a row: the number of vertices, rounded up to whole blocks of the
+    /// recording.
     pub(super) vertices: usize,
-    /// Number of coefficient rows.
+    /// Number of rows of polynomial coefficients.
     pub(super) coefficients: usize,
 }
 

@@ -1,5 +1,4 @@
-//! Playback timing: which t is shown after how many seconds. It has no state and is shared by the
-//! window and the export.
+//! Playback timing: which t is shown after how many seconds. The window and the export share it.
 //!
 //! One pass of the animation runs from one t to another and pauses at each end. Stops divide it
 //! into segments, each with its own easing; the animation may pause at a stop. The duration of a

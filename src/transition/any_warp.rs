@@ -55,8 +55,9 @@ impl AnyWarp {
         }
     }
 
-    /// Returns the rigidity-preserving interpolation, without part timings; `None` for other warps.
-    /// For [`Self::RigidElastic`], it is relative to the common rigid motion.
+    /// Returns the rigidity-preserving interpolation of the warp, without part timings; `None` if
+    /// the warp has none. For [`Self::RigidElastic`], the interpolation is relative to the common
+    /// rigid motion.
     pub fn arap(&self) -> Option<&Arap> {
         match self {
             Self::Rigid(arap) => Some(arap),

@@ -138,7 +138,7 @@ fn on_grid<W: PlaneWarp>(
 fn grid(frame: &Bounds, work: usize) -> PlaneGrid {
     let frame_size = frame.size();
     let aspect = frame_size.min_element() / frame_size.max_element();
-    // The grid has aspect · cells² points, and each takes `work`.
+    // The grid has about aspect · cells² points, and the evaluation at each point takes `work`.
     let max_points = MAX_FRAME_WORK / (work.max(1) as f64);
     let cells = (max_points / aspect.max(0.01))
         .sqrt()

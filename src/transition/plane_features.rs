@@ -17,7 +17,8 @@ use crate::work::progress::{Progress, checkpoint};
 /// line).
 const ON_OUTLINE_DISTANCE: f64 = 0.005;
 
-/// Number of automatic pins along each outline (heuristic; each adds a row to the equations).
+/// Number of automatic pins along each outline (heuristic; each pin adds an equation to the system
+/// that determines the warp).
 const AUTOMATIC_PINS: usize = 24;
 
 /// Number of automatic lines along each outline (heuristic; lines act on the whole plane, and many

@@ -61,8 +61,8 @@ pub(super) fn solve_best(
     let matched = separation.matched;
     let layers = PieceLayers::of(&matched, &drawings.appearances);
     let arap = stiffen_folds(separation.arap, progress)?;
-    // The time windows of the holes are chosen for the stiffened motion, because that is the motion
-    // that is shown.
+    // The time windows of the holes are chosen for the motion after `stiffen_folds`, because that
+    // is the motion that is shown.
     let schedule_for = |holes: &[PieceHole]| {
         placement::timetable(&matched, &arap, (holes, &layers), spec.options.quality)
     };
@@ -115,7 +115,8 @@ fn without_collisions(
             || previous_collisions.len() == MAX_REFINEMENTS
             || previous_collisions.last() == Some(&collision_times)
         {
-            // If placing parts again did not help, the first placement is used.
+            // If collisions remain although the parts were placed again, the first placement is
+            // used.
             let restored = if collision_times.is_empty() {
                 None
             } else {

@@ -2,7 +2,8 @@
 //! motion.
 //!
 //! - `candidate`: a candidate match of a piece, with its mesh and the defects of its motion
-//! - `group`: matches the pieces of a group of parts with several match options
+//! - `group`: matches the pieces of a group, that is, of parts that are matched together, with
+//!   several match options
 //! - `attempts`: the table of attempts, which try other match options for certain pieces
 //! - `sliding`: slides corresponding points of the best matches along the outlines, and chooses the
 //!   better of two results

@@ -26,9 +26,9 @@ use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancel
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Maximum number of rounds in which colliding pieces are unpaired. One round may not suffice: if
-/// one of the pieces of a split part is unpaired, the part is split again among the others, which
-/// can cause new collisions (resource limit).
+/// Maximum number of times that colliding pieces are unpaired. Once may not suffice: if one of the
+/// pieces of a split part is unpaired, the part is split again among the others, which can cause
+/// new collisions (resource limit).
 const MAX_ROUNDS: u32 = 3;
 
 /// Progress reported once the collisions of the draft matches are resolved, in [0, 1] (heuristic).
@@ -37,8 +37,8 @@ const DRAFT_PROGRESS: f64 = 0.1;
 /// (heuristic).
 const JOIN_PROGRESS: f64 = 0.2;
 
-/// Progress of one round of unpairing, in [0, 1], reported once the pieces are matched, before
-/// their motion is solved (heuristic).
+/// Share of the work of one pass of [`unpair_until_separate`] that is done once the pieces are
+/// matched, before their motion is solved, in [0, 1] (heuristic).
 const MATCH_PROGRESS: f64 = 0.9;
 
 /// Misfit assumed for an unmatched piece in the mean misfit of all pieces (heuristic).
@@ -121,7 +121,7 @@ pub(super) fn separate(
     unpair_until_separate(prepared, spec, &best, &searching)
 }
 
-/// Function that chooses the matches of the pieces of a group.
+/// Function that chooses the match of each piece of a group of parts.
 type PieceChooser<'a> =
     dyn Fn(&GroupSearch, &dyn Progress) -> Result<Vec<PieceResult>, BuildError> + Sync + 'a;
 
@@ -133,8 +133,8 @@ fn requested_matches(
     drafts_of_group(group, progress)
 }
 
-/// Matches the pieces with `choice`, and unpairs pieces until none collide or [`MAX_ROUNDS`] is
-/// reached.
+/// Matches the pieces of each group of parts as `choice` prescribes. Unpairs colliding pieces and
+/// matches again until no matched pieces collide, at most [`MAX_ROUNDS`] times.
 ///
 /// # Errors
 /// As [`separate`].
@@ -147,7 +147,8 @@ fn unpair_until_separate(
     let mut chosen_groups = ChosenGroups::new();
     let (mut round, mut repairs) = (0, 0);
     loop {
-        // Most motions need only one round, so each round gets half of the remaining progress.
+        // In most motions no piece is unpaired, so each pass of this loop gets half of the
+        // remaining progress.
         let done = |rounds: u32| 1.0 - 0.5_f64.powi(rounds as i32);
         let progress = &ProgressSpan::new(progress, done(round), done(round + 1));
         let [matching, solving] = [(0.0, MATCH_PROGRESS), (MATCH_PROGRESS, 1.0)]
@@ -187,7 +188,8 @@ fn unpair_until_separate(
 /// The pieces of each group of parts that has been matched.
 type ChosenGroups = BTreeMap<PartGroup, Vec<PieceResult>>;
 
-/// Chooses the pieces of each group that is not in `chosen_groups`.
+/// Returns the matched pieces of each group of parts: those in `chosen_groups`, or else those that
+/// `choice` returns.
 ///
 /// # Errors
 /// The first error in the order of the groups.
@@ -217,7 +219,7 @@ fn choose_pieces(
     chosen.into_iter().collect()
 }
 
-/// Combines the matches of all pieces into one match.
+/// Combines the matches of the pieces of all groups into one match of the designs.
 fn combined_match(groups: &[Vec<PieceResult>]) -> RegionMatch {
     let piece_of = |chosen: &PieceResult| match chosen {
         Ok(best) => best.matched.clone(),

@@ -3,9 +3,8 @@
 //! This applies only to homotopies that keep orientation; motions with other homotopies are left
 //! unchanged. Such a homotopy prescribes an affine map for each face at each t. A face that follows
 //! its map exactly never folds; a face folds because its neighbours pull it away from its map.
-//! Folded faces are therefore stiffened repeatedly, until no face folds or the maximum number of
-//! rounds is reached. At t = 0 and t = 1, every face follows its map, so the motion stays exact
-//! there.
+//! Folded faces are therefore stiffened repeatedly, until no face folds, but at most [`MAX_ROUNDS`]
+//! times. At t = 0 and t = 1, every face follows its map, so the motion stays exact there.
 //!
 //! The motion is sampled in [`STEPS`] steps; folds between two samples are missed. Not guaranteed:
 //! that all folds are removed. Where large areas fold, stiffness only moves the fold elsewhere.
@@ -19,16 +18,18 @@ use rayon::prelude::*;
 /// Number of equal steps of t into which the motion is divided to detect folds (resource limit).
 const STEPS: u32 = 64;
 
-/// Maximum number of rounds in which the stiffness of folded faces is raised (resource limit).
+/// Maximum number of times that folded faces are made stiffer (resource limit).
 const MAX_ROUNDS: u32 = 8;
-/// Factor by which the stiffness of a folded face is multiplied in each round (heuristic).
+/// Factor by which the stiffness of a folded face is multiplied when the face is made stiffer
+/// (heuristic).
 const STIFFNESS_FACTOR: f64 = 4.0;
 
-/// Maximum number of faces for which folds are detected (resource limit: a round takes 0.4 s per
-/// 100,000 faces).
+/// Maximum number of faces of a motion in which folds are removed (resource limit: each of the at
+/// most [`MAX_ROUNDS`] repetitions takes 0.4 s per 100,000 faces).
 const MAX_FACES: usize = 100_000;
 
-/// Returns the motion with the fewest folds among those that were tried.
+/// Stiffens folded faces repeatedly and returns the motion with the fewest folds; `motion` itself
+/// if none has fewer or it has more than [`MAX_FACES`] faces.
 ///
 /// # Errors
 /// If the work is cancelled.

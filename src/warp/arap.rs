@@ -21,11 +21,11 @@
 //! - `options`: options, validation and errors
 //! - `angles`: consistent rotation angles of all faces
 //! - `assembly`: gradients, weights and the matrix
-//! - `forces`: vectorised right-hand sides at one t
+//! - `forces`: vectorised right-hand sides of the linear system at one t
 //! - `bounded`: local maps with bounded distortion, computed for all faces together
 //! - `strain_limiting`: correction of faces that are sheared beyond that bound
-//! - `boundary_edges`: boundary edges as additional elements of the energy
-//! - `edge_lengths`: lengths of these elements during the motion
+//! - `boundary_edges`: additional terms of the energy, one for each boundary edge
+//! - `edge_lengths`: lengths of the boundary edges during the motion
 //! - `straight_sides`: constraints that keep straight sides straight
 //! - `frame_solver`: the factored system and its evaluation at one t
 //! - `guard`: displacements that avoid collisions of the outlines
@@ -132,8 +132,8 @@ impl Arap {
 
     /// Builds the interpolation of a triangulation of outlines.
     ///
-    /// In contrast to [`Self::build`], boundary edges are elements of the energy, and sides that
-    /// are straight and equally divided in both designs stay straight. A transient part is a
+    /// In contrast to [`Self::build`], the energy also has a term for each boundary edge, and sides
+    /// that are straight and equally divided in both designs stay straight. A transient part is a
     /// connected part that is a point in one of the designs. `time_windows` holds, for each
     /// transient part, the time window within which the part changes its size. The entry is `None`
     /// for other parts; parts beyond the end of the list have no time window. Unless all parts are

@@ -37,15 +37,19 @@ const LN_2_PARTS: [f64; 2] = [leading_bits(LN_2), 7.440617110012397e-11];
 /// Largest |x| for which eˣ is a normal number.
 const MAX_EXPONENT: f64 = 708.0;
 
-/// Coefficients 1/3!, −1/5!, 1/7!, …; the first omitted term is below 1e-19 at π/4.
+/// Coefficients 1/3!, −1/5!, 1/7!, … of P in the Taylor series sin x = x − x³ P(x²). The first
+/// omitted term of the series is below 1e-19 at x = π/4.
 const SINE: [f64; 8] = reciprocal_factorials(3, 2, -1.0);
-/// Coefficients 1/4!, −1/6!, 1/8!, …; the first omitted term is below 1e-17 at π/4.
+/// Coefficients 1/4!, −1/6!, 1/8!, … of P in the Taylor series cos x = 1 − x²/2 + x⁴ P(x²). The
+/// first omitted term of the series is below 1e-17 at x = π/4.
 const COSINE: [f64; 7] = reciprocal_factorials(4, 2, -1.0);
-/// Coefficients 1/2!, 1/3!, …; the first omitted term is below 1e-17 at ln 2 / 2.
+/// Coefficients 1/2!, 1/3!, … of P in the Taylor series eˣ = 1 + x + x² P(x). The first omitted
+/// term of the series is below 1e-17 at x = ln 2 / 2.
 const EXPONENTIAL: [f64; 12] = reciprocal_factorials(2, 1, 1.0);
 
-/// Coefficients 1/3, 1/5, 1/7, …; the first omitted term is below 3e-17 of the sum at the
-/// largest squared argument, 0.0295.
+/// Coefficients 1/3, 1/5, 1/7, … of P in the series artanh s = s + s³ P(s²), from which [`ln`] is
+/// computed. At the largest s² that occurs, 0.0295, the first omitted term of the series is below
+/// 3e-17 of its sum.
 const LOGARITHM: [f64; 9] = {
     let mut terms = [0.0; 9];
     let mut k = 0;
@@ -79,7 +83,7 @@ const fn reciprocal_factorials<const N: usize>(first: u32, step: u32, sign: f64)
     terms
 }
 
-/// Evaluates Σ aₖ xᵏ by Horner's rule.
+/// Evaluates the polynomial Σ aₖ xᵏ by Horner's rule.
 #[inline(always)]
 fn polynomial<const N: usize>(x: f64, a: &[f64; N]) -> f64 {
     let mut sum = a[N - 1];
@@ -125,7 +129,8 @@ pub(super) fn exp(x: f64) -> f64 {
     (1.0 + (x + x * x * polynomial(x, &EXPONENTIAL))) * power_of_two
 }
 
-/// Evaluates the series of [`LOGARITHM`] in pairs (Estrin 1960).
+/// Evaluates the polynomial with the coefficients [`LOGARITHM`] at x, combining its terms in pairs
+/// (Estrin 1960).
 ///
 /// With Horner's rule, each step would wait for the previous product. The additional rounding error
 /// is a thirtieth of a unit in the last place.

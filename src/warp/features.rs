@@ -12,7 +12,7 @@ use crate::geometry::{Bounds, DVec2};
 pub const LINE_SAMPLES: usize = 5;
 
 /// Maximum number of features, where a line counts as [`LINE_SAMPLES`] (resource limit: the
-/// scattered-point warp solves a dense system of this size for every frame).
+/// scattered-point warp solves a dense system of this size for every film frame).
 pub const MAX_FEATURES: usize = 512;
 
 /// Limit of each coordinate of a feature, relative to the frame's centre and in frame diameters.

@@ -41,7 +41,8 @@ named! { WarpKind {
 } }
 
 impl WarpKind {
-    /// All warps, from the one that requires most of the designs to the one that requires least.
+    /// All warps, ordered by the conditions that they impose on the designs, from the most to the
+    /// fewest.
     pub const BY_DEMAND: [Self; Self::ALL.len()] = [
         Self::Arap,
         Self::Paths,

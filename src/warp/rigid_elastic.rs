@@ -30,7 +30,8 @@ pub struct RigidElasticPlaneWarp<W> {
 impl<W> RigidElasticPlaneWarp<W> {
     /// Splits off `rigid` and builds the elastic warp of the remaining displacements.
     ///
-    /// `elastic` receives the frame and the features in rest coordinates.
+    /// `elastic` receives the frame and the features in rest coordinates, in which both designs are
+    /// centred and rotated to the halfway angle.
     ///
     /// # Errors
     /// The error of `elastic`.
@@ -122,7 +123,7 @@ impl<W: Warp> RigidElasticWarp<W> {
         }
     }
 
-    /// Returns the warp in rest coordinates.
+    /// Returns the warp in rest coordinates, without the rigid motion.
     pub const fn rest_warp(&self) -> &W {
         &self.rest_warp
     }

@@ -47,10 +47,11 @@ pub struct CommonRigidMotion {
     pub(super) turn: f64,
 }
 
-/// Number of steps in which the motion is sampled for the swept bounds.
+/// Number of intervals between the times at which [`CommonRigidMotion::swept_bounds`] samples the
+/// motion.
 ///
-/// Derived: a step covers at most 12°, and the arc between two samples bulges by at most half
-/// a percent of the corner's distance from the centre.
+/// Derived: the frame rotates by at most 12° in an interval, and the arc of a corner between two
+/// samples bulges by at most half a percent of the corner's distance from the centre.
 const SWEEP_STEPS: u32 = 16;
 
 /// Length of the summed rotation vectors, relative to the sum of their lengths, below which the sum
@@ -124,7 +125,8 @@ impl CommonRigidMotion {
         (back, self.centres[0] * (1.0 - t) + self.centres[1] * t)
     }
 
-    /// Returns the boundary match with all points in rest coordinates.
+    /// Returns the boundary match with all points in rest coordinates, in which both designs are
+    /// centred and rotated to the halfway angle.
     #[must_use]
     pub fn match_to_rest(&self, matched: &RegionMatch) -> RegionMatch {
         let mut matched = matched.clone();
@@ -151,8 +153,8 @@ impl CommonRigidMotion {
         }
     }
 
-    /// Returns the bounding box of the area that the frames of both designs sweep during the
-    /// motion.
+    /// Returns the bounding box of the area that `frame` sweeps when it moves rigidly with the
+    /// source and when it moves rigidly with the target.
     ///
     /// The motion is sampled, so the box may be too small by about half a percent.
     #[must_use]
@@ -170,7 +172,8 @@ impl CommonRigidMotion {
         swept
     }
 
-    /// Returns the mappings from rest coordinates to the source and to the target.
+    /// Returns two mappings from rest coordinates (in which both designs are centred and rotated to
+    /// the halfway angle): one to the source and one to the target.
     pub(super) fn maps_from_rest(&self) -> [impl Fn(DVec2) -> DVec2; 2] {
         let half = DVec2::from_angle(0.5 * self.turn);
         let [source, target] = self.centres;

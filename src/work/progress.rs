@@ -204,7 +204,8 @@ pub struct ProgressSpan<'a> {
 }
 
 impl<'a> ProgressSpan<'a> {
-    /// Creates the progress of a step that advances `inner` from the fraction `from` to `to`.
+    /// Creates the progress of one step of a computation. The step advances `inner` from the
+    /// fraction `from` to `to`.
     ///
     /// ```
     /// use morphospace::work::progress::{Progress, ProgressSpan, Silent};

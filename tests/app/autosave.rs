@@ -1,4 +1,4 @@
-//! Autosave: unsaved changes survive a crash and are offered at the next start.
+//! Tests of autosave: unsaved changes survive a crash and are offered at the next start.
 
 use std::path::Path;
 use std::time::{Duration, Instant};

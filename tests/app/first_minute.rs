@@ -1,5 +1,6 @@
-//! The first minute with the program: the invitation to open files, the gallery project that plays
-//! meanwhile, when the invitation closes, and which films play as soon as they are opened.
+//! Tests of the first minute with the program: the invitation to open files, the gallery project
+//! that plays meanwhile, when the invitation closes, and which films play as soon as they are
+//! opened.
 
 use std::path::{Path, PathBuf};
 

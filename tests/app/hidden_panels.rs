@@ -1,5 +1,5 @@
-//! Hidden panels: only the drawing is left, notices wait until the panels are shown again, and the
-//! help and questions to the user still appear.
+//! Tests of hidden panels: only the drawing is left, notices wait until the panels are shown again,
+//! and the help and questions to the user still appear.
 
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{IntoScheduleConfigs, PostUpdate, Query, ResMut, Resource};

@@ -1,6 +1,6 @@
-//! Problems are shown until their cause is removed; methods that fail are replaced. Long builds
-//! show a draft or a field blend and can be cancelled. Builds that were refused start if the user
-//! asks for them. Exports and measuring run in the background.
+//! Tests of background jobs and notices. Problems are shown until their cause is removed; methods
+//! that fail are replaced. Long builds show a draft or a field blend and can be cancelled. Builds
+//! that were refused start if the user asks for them. Exports and measuring run in the background.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,5 @@
-//! Keyboard shortcuts: their effects on time, speed, stops, panels and the method, on different
-//! keyboard layouts and while a text field has the focus.
+//! Tests of keyboard shortcuts: their effects on time, speed, stops, panels and the method, on
+//! different keyboard layouts and while a text field has the focus.
 
 use crate::headless_window::{HeadlessWindow, is_close};
 use bevy::input::ButtonState;

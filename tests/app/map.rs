@@ -1,4 +1,5 @@
-//! The map of all designs: building it, moving the marker, layouts, paths and saved blends.
+//! Tests of the map of all designs: building it, moving the marker, layouts, paths and saved
+//! blends.
 
 use std::path::PathBuf;
 
@@ -279,7 +280,8 @@ fn marker_movement_is_recorded_as_a_path_and_places_are_saved() {
     assert!(saved[0].name.contains('%'), "{}", saved[0].name);
     let made = map_view(&window).pictures().expect("a map");
     assert!(made.saved_blend(saved[0].at).is_some());
-    // The map is measured on a grid that is refined in the background, up to 64 × 64 points.
+    // The blends on the map are measured on a grid that is refined in the background, up to 64 × 64
+    // points.
     let grid_side = made
         .contours()
         .landscape()

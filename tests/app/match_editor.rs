@@ -1,5 +1,5 @@
-//! The match editor: pins, cuts, part pairs and part times set by pointer and keys, and the views
-//! of its panes.
+//! Tests of the match editor: pins, cuts, part pairs and part times set by pointer and keys, and
+//! the views of its panes.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! The search for the best method: it runs in the background, can be cancelled, and its result is
-//! applied and can be undone.
+//! Tests of the search for the best method: it runs in the background, can be cancelled, and its
+//! result is applied and can be undone.
 
 use std::path::Path;
 use std::time::Duration;

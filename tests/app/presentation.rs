@@ -1,5 +1,5 @@
-//! Presentation mode: it shows only the drawing, starts at the first stop and reacts to few keys.
-//! Also presentations started from the command line.
+//! Tests of presentation mode: it shows only the drawing, starts at the first stop and reacts to
+//! few keys. Also tests of presentations started from the command line.
 
 use bevy::input::keyboard::{Key, KeyCode};
 use morphospace::app::testing::{Intent, Presentation, UnsavedQuestion};

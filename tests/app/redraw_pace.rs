@@ -1,5 +1,5 @@
-//! The rate of redraws: continuous while something moves, seldom during background work, and none
-//! while the window is idle or hidden.
+//! Tests of the rate of redraws: continuous while something moves, seldom during background work,
+//! and none while the window is idle or hidden.
 
 use std::time::Duration;
 
@@ -127,7 +127,7 @@ fn a_hidden_window_does_not_redraw_and_work_redraws_seldom() {
         frame: Duration::ZERO,
     };
     assert_ne!(hidden.update_mode(), UpdateMode::Continuous);
-    // If only a clock changes, the window is redrawn twice a second.
+    // If only the clock of the speaker window changes, the window is redrawn twice a second.
     let clock = RedrawPace {
         is_moving: false,
         is_waiting: false,

@@ -1,5 +1,5 @@
-//! Saving: every save is confirmed with its path or reported as cancelled, existing files are not
-//! overwritten by accident, and the match is saved. Also the file dialog.
+//! Tests of saving: every save is confirmed with its path or reported as cancelled, existing files
+//! are not overwritten by accident, and the match is saved. Also tests of the file dialog.
 
 use std::path::{Path, PathBuf};
 

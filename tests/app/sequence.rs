@@ -1,4 +1,4 @@
-//! Films through several designs: opening, playing, reordering and saving them.
+//! Tests of films through several designs: opening, playing, reordering and saving them.
 
 use std::path::PathBuf;
 

@@ -1,5 +1,6 @@
-//! Background recording of the transition on the stage, and the proof that the recording has no
-//! folds and no crossings. Also the memory limit of recordings, and their cancellation.
+//! Tests of the background recording of the transition on the stage, and of the proof that the
+//! recording has no folds and no crossings. Also tests of the memory limit of recordings, and of
+//! their cancellation.
 
 use std::time::Duration;
 

@@ -1,5 +1,5 @@
-//! Undo and redo of changes to the project. Also reuse of distance fields when a setting that does
-//! not affect them changes.
+//! Tests of undo and redo of changes to the project. Also tests of the reuse of distance fields
+//! when a setting that does not affect them changes.
 
 use crate::headless_window::{HeadlessWindow, gallery_names};
 use bevy::input::keyboard::{Key, KeyCode};

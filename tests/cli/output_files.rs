@@ -1,5 +1,5 @@
-//! Every output format of `render`, at small sizes: images, sheets, numbered frames and films. Also
-//! the number of frames and the flags that override a preset.
+//! Tests of every output format of `render`, at small sizes: images, sheets, numbered frames and
+//! films. Also tests of the number of frames, and of the flags that override a preset.
 
 use std::fs;
 use std::io::BufReader;

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use crate::cli_fixture::{CliFixture, read_image, stderr};
 
-/// Reads the rows of a report; each is a map from column name to value.
+/// Reads the rows of a report; each maps column names to values.
 fn read_report(path: &Path) -> Vec<HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(path).expect("a report");
     let rows = reader.deserialize();

@@ -1,7 +1,7 @@
-//! Full and read-only disks, file-size limits, missing permissions, and outputs that are folders,
-//! devices or pipes.
+//! Tests of outputs that cannot be written: full and read-only disks, file-size limits, missing
+//! permissions, and outputs that are folders, devices or pipes.
 //!
-//! Each gives a one-line message with a remedy, and leaves the earlier file unchanged. A full
+//! Each case gives a one-line message with a remedy, and leaves the earlier file unchanged. A full
 //! stdout is reported in the same way; a closed stdout is ignored.
 
 use std::fs;

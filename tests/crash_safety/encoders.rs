@@ -1,6 +1,6 @@
-//! Failures of the video encoder, simulated by a fake ffmpeg. An encoder that fails, falsely
-//! reports success or writes an invalid film leaves the earlier film unchanged, and the error
-//! quotes the encoder's message. A complete film replaces the earlier one.
+//! Tests of failures of the video encoder, simulated by a fake ffmpeg. An encoder that fails,
+//! falsely reports success or writes an invalid film leaves the earlier film unchanged, and the
+//! error quotes the encoder's message. A complete film replaces the earlier one.
 //!
 //! Encoders that hang are tested in `signals`.
 

@@ -74,7 +74,7 @@ impl OffscreenRenderer {
     /// Opens a graphics adapter, restricted to the given limits; `None` if the machine has no
     /// adapter.
     pub fn open(limits: Option<WgpuLimits>) -> Option<Self> {
-        // Shaders are compiled before the first frame, so that every part of the scene is drawn.
+        // Shaders are compiled before the first frame, so that no element of the scene is missing.
         Self::open_with(limits, true)
     }
 
@@ -160,7 +160,7 @@ impl OffscreenRenderer {
         self.frame();
     }
 
-    /// Changes which parts of the scene on the stage are visible.
+    /// Changes which elements of the scene on the stage, such as its wireframe, are visible.
     pub fn change_visibility(&mut self, change: impl FnOnce(&mut StageVisibility)) {
         let mut staged = self.staged();
         change(&mut staged.get_mut::<StageStyle>().expect("a style").visibility);

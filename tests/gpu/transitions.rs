@@ -39,7 +39,7 @@ pub fn spiral(turn: f64) -> Transition {
 }
 
 /// Transition from a triangulated strip with `columns` columns to the image of the strip under the
-/// map `bent`; `offset` is added to all coordinates of both.
+/// mapping `bent`; `offset` is added to all coordinates of both strips.
 fn strip(columns: u32, offset: f64, bent: impl Fn(DVec2) -> DVec2) -> Transition {
     let mesh = |map: &dyn Fn(DVec2) -> DVec2| {
         let rows = 4;

@@ -1,5 +1,5 @@
-//! Small files that expand to huge documents, and huge JSON files. They are refused before they
-//! take much memory or time; drawings that are merely slow are simplified.
+//! Tests of small files that expand to huge documents, and of huge JSON files. They are refused
+//! before they take much memory or time; drawings that are merely slow are simplified.
 
 use crate::bounded_run::BoundedFixture;
 

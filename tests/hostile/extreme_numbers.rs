@@ -1,6 +1,6 @@
-//! Numbers outside the supported range: coordinates in every file format, and settings in project
-//! files. They are refused; a design far from the origin is accepted if it is large enough for the
-//! precision of its coordinates.
+//! Tests of numbers outside the supported range: coordinates in every file format, and settings in
+//! project files. They are refused; a design far from the origin is accepted if it is large enough
+//! for the precision of its coordinates.
 
 use crate::bounded_run::BoundedFixture;
 

@@ -1,5 +1,5 @@
-//! Image files with few bytes and many pixels: the largest supported size is read, larger ones are
-//! refused.
+//! Tests of image files with few bytes and many pixels: the largest supported size is read, larger
+//! ones are refused.
 
 use png::{BitDepth, ColorType, Encoder};
 

@@ -1,5 +1,5 @@
-//! Hostile input: files and arguments that are made to break the program. Each is given to the
-//! program in a child process.
+//! Tests of hostile input: files and arguments that are made to break the program. Each is given to
+//! the program in a child process.
 //!
 //! The program must end by itself with the right exit code and within limits on memory and time.
 //! Its error must be one line that names the file and contains no terminal control characters. The

@@ -1,4 +1,4 @@
-//! Paths to devices, pipes, folders and files that are too large are refused.
+//! Tests that paths to devices, pipes, folders and files that are too large are refused.
 
 use std::fs::File;
 

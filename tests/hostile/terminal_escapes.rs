@@ -1,5 +1,6 @@
-//! Messages quote text from files and arguments on one line and without control characters. Also
-//! coloured output, and errors that name inputs which do not fit together.
+//! Tests that messages quote text from files and arguments on one line and without terminal control
+//! characters. Also tests of coloured output, and of errors that name inputs which do not fit
+//! together.
 
 use crate::bounded_run::{BoundedFixture, terminal_control};
 

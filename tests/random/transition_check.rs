@@ -1,5 +1,6 @@
-//! Checks the transition between two polygons. Some properties must hold for all polygons; other
-//! defects are allowed, and are counted.
+//! Checks the transition between two polygons. Its faces must be positive in both designs, its
+//! vertices finite, and its areas at t = 0 and t = 1 those of the designs. Folds and crossings in
+//! between are allowed, and are counted.
 
 use super::Rings;
 use morphospace::geometry::orient2d;

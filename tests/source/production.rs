@@ -1,4 +1,4 @@
-//! The part of a Rust file that is not a test.
+//! Reads the production code of a Rust file: everything except test code.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -15,8 +15,8 @@ pub struct Constant {
     pub is_numeric: bool,
 }
 
-/// Number of lines of code (without blank lines and comments) and constants of a file, both without
-/// tests.
+/// Production code of a file: its number of lines of code (without blank lines and comments), and
+/// its constants.
 pub struct ProductionCode {
     pub lines: usize,
     pub constants: Vec<Constant>,

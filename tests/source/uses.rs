@@ -90,11 +90,11 @@ impl Crate {
     }
 
     /// Returns the file that defines the item that `path` names in `module`; `None` for items of
-    /// other crates and for modules. `depth` counts the steps of the search so far.
+    /// other crates and for modules. `depth` is the depth of the recursion.
     fn file_of(&self, module: &[String], path: &[String], depth: usize) -> Option<&Path> {
         let at = self.0.get(module)?;
         let (first, rest) = path.split_first()?;
-        // Glob imports may be circular, so the number of steps is bounded.
+        // Glob imports may be circular, so the depth of the recursion is bounded.
         if depth > 20 {
             return None;
         }

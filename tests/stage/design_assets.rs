@@ -1,4 +1,4 @@
-//! Designs that the asset server loads and reloads, and failures to read them.
+//! Tests of designs that the asset server loads and reloads, and of failures to read them.
 
 use super::{has, update_until};
 use bevy::prelude::*;

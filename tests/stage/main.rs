@@ -24,7 +24,8 @@ use morphospace::transition::{Transition, TransitionMethod, TransitionSpec, Tran
 use morphospace::warp::WarpKind;
 use morphospace::work::progress::Silent;
 
-/// Image under `map` of a horizontal strip of unit squares, each split into two triangles.
+/// Image under the mapping `map` of a horizontal strip of unit squares, each split into two
+/// triangles.
 fn strip(squares: u32, map: impl Fn(DVec2) -> DVec2) -> TriangleMesh {
     let column = |i: u32| [0.0, 1.0].map(|y| map(DVec2::new(f64::from(i), y)));
     let positions = (0..=squares).flat_map(column).collect();
@@ -111,7 +112,7 @@ fn vertices(app: &App, entity: Entity) -> Vec<DVec2> {
     morph.frame().placement().in_frame.clone()
 }
 
-/// Mesh and visibility of each drawn part of the entity (fill, wireframe and so on).
+/// Mesh and visibility of each render part of the entity (fill, wireframe and so on).
 fn meshes_of(app: &App, entity: Entity) -> Vec<(Handle<Mesh>, Visibility)> {
     let world = app.world();
     let children = world.get::<Children>(entity).map(|c| c.to_vec());

@@ -117,7 +117,7 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<StageRecording>) {
         });
     }
     if let Some(answer) = BackgroundJob::take_result(&mut now.job) {
-        // If the transition could not be recorded, the reason is shown next to the drawing times.
+        // If the transition could not be recorded, the overlay of drawing times shows the reason.
         (now.proof, now.error) = match answer {
             Ok(proved) => (proved, None),
             Err(JobError::Failed(error)) => (None, Some(error)),

@@ -33,10 +33,11 @@ const SEARCH_DELAY: Duration = Duration::from_millis(800);
 /// Maximum number of suggestions (heuristic: they share one line).
 const MAX_SUGGESTIONS: usize = 3;
 
-/// Maximum overshoot that a suggestion may add to the film. Overshoot is the turning of outlines
-/// plus the change of area beyond those that the two designs require, both as fractions. Without
-/// this limit, a change that lets all parts appear and disappear would be offered, although hardly
-/// anything of the designs is visible halfway (heuristic).
+/// Maximum overshoot that a suggestion may add to the film. Overshoot is the sum of two fractions:
+/// the excess of the turning over its values interpolated between the designs, and the excess of
+/// the total change of area over the difference between the designs' areas. Without this limit, a
+/// change that lets all parts appear and disappear would be offered, although hardly anything of
+/// the designs is visible halfway (heuristic).
 const MAX_ADDED_OVERSHOOT: f64 = 0.2;
 
 /// Value added to the overshoot of a suggestion that mirrors or rotates the target. It ranks the

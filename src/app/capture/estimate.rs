@@ -1,4 +1,4 @@
-//! Estimates the size and duration of a film export by exporting a few frames.
+//! Estimates the size and duration of a film export by exporting a few film frames.
 
 use std::time::{Duration, Instant};
 
@@ -11,8 +11,8 @@ use crate::app::jobs::job::BackgroundJob;
 use crate::app::output_files::{CaptureFolder, ScratchFolder};
 use crate::app::session::state::Session;
 
-/// Time without changes before an estimate starts, so that a dragged slider triggers none
-/// (heuristic).
+/// Time without changes of the project or the export settings before an estimate starts, so that a
+/// dragged slider triggers none (heuristic).
 const QUIET_TIME: Duration = Duration::from_millis(500);
 
 /// Export preferences for which an estimate was made. A new estimate is made when the preferences

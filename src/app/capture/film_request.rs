@@ -33,7 +33,7 @@ pub enum FilmExportError {
     /// The timing or the size gives no film.
     #[error(transparent)]
     Film(#[from] FilmFramingError),
-    /// The film has no frames in the range that the estimate would export.
+    /// The film lacks the frames that the estimate would export.
     #[error(transparent)]
     Section(#[from] FilmSpecError),
     /// The output file could not be created.
@@ -74,16 +74,17 @@ impl From<ExportError> for FilmExportError {
 /// Number of in-betweens per method on a comparison sheet (heuristic).
 const SHEET_COLUMNS: usize = 7;
 
-/// Number of frames exported to estimate the duration and size of an export (heuristic).
+/// Number of film frames exported to estimate the duration and size of an export (heuristic).
 const TRIAL_FRAMES: usize = 12;
 
-/// Longer side of the image that shows the current frame during an export, in pixels (heuristic).
+/// Longer side of the preview image, which shows the film frame being exported, in pixels
+/// (heuristic).
 const PREVIEW_PX: f64 = 240.0;
 
-/// Minimum time between two images of the current frame during an export (heuristic).
+/// Minimum time between two preview images during an export (heuristic).
 const PREVIEW_EVERY: Duration = Duration::from_millis(400);
 
-/// Image of the frame being exported, shared with the export's thread.
+/// Image of the film frame being exported, shared with the export's thread.
 #[derive(Clone, Debug, Default)]
 pub struct FilmPreview(Arc<Mutex<Option<Arc<RgbaImage>>>>);
 
@@ -185,8 +186,8 @@ impl FilmRequest {
         }
     }
 
-    /// Estimates the cost of the export: exports one frame, then [`TRIAL_FRAMES`] frames, and
-    /// extrapolates.
+    /// Estimates the cost of the export: exports one film frame, then [`TRIAL_FRAMES`] film frames,
+    /// and extrapolates to the whole film.
     ///
     /// # Errors
     /// The settings give no film, or the exported frames cannot be written.
@@ -211,8 +212,8 @@ impl FilmRequest {
             })
         };
         let (one, some) = (cost(&part(1)?, "one")?, cost(&part(TRIAL_FRAMES)?, "some")?);
-        // The cost is extrapolated linearly in the number of distinct frames. The cost of a single
-        // frame includes the fixed costs.
+        // The cost of the first film frame includes the fixed costs. Each further distinct film
+        // frame is assumed to cost as much as the average trial frame.
         let ratio =
             (film.runs().len() - 1) as f64 / (part(TRIAL_FRAMES)?.runs().len().max(2) - 1) as f64;
         let extrapolate = |one: f64, some: f64| one + (some - one).max(0.0) * ratio;
@@ -273,10 +274,10 @@ impl FilmRequest {
 
 /// Returns the index of the first image of the film that is exported for the estimate.
 ///
-/// The estimate exports [`TRIAL_FRAMES`] consecutive images, during which t never pauses. If
-/// several sections of the film qualify, the one is chosen whose mean speed is closest to that of
+/// The estimate exports [`TRIAL_FRAMES`] consecutive images, during which t never pauses. Of all
+/// such sections of the film, this function selects the one whose mean speed is closest to that of
 /// the film without its pauses, because fast sections would not be representative. The index is 0
-/// if no section qualifies.
+/// if there is no such section.
 fn typical_start(times: &[f64]) -> usize {
     let moves: Vec<f64> = times
         .windows(2)
@@ -303,8 +304,8 @@ fn size_on_disk(path: &Path) -> std::io::Result<u64> {
     Ok(all)
 }
 
-/// Progress receiver that forwards all reports. It also draws the current frame for the preview, at
-/// most once per [`PREVIEW_EVERY`].
+/// Progress receiver that forwards all reports. It also draws the film frame being exported for the
+/// preview, at most once per [`PREVIEW_EVERY`].
 struct PreviewingProgress<'a> {
     camera: Camera,
     times: &'a [f64],

@@ -311,7 +311,8 @@ impl MatchEditor {
         self.refusal = None;
         if let Some(handle) = sheet.handle_at(touch) {
             remove_handle(handle, sheet, matching);
-            // Deleting an entry changes the indices of later entries, so old indices may be wrong.
+            // Deleting a pin, cut or line changes the indices of later ones, so these two handles
+            // may contain wrong indices.
             (self.selected, self.hovered) = (None, None);
         } else if self.tool == EditorTool::Parts {
             let mut parts = [None; 2];

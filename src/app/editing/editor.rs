@@ -1,5 +1,5 @@
-//! State of the match editor: tool, selection, what the pointer is over or drags, and the views of
-//! its panes.
+//! Tool and selection of the match editor, the objects under the pointer, the dragged object, and
+//! the views of the editor's panes.
 
 use bevy::prelude::Resource;
 
@@ -23,7 +23,7 @@ pub enum EditorHandle {
 /// One of the two ends of a cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CutEnd {
-    /// The end on the boundary around the hole.
+    /// The end on the part's outer boundary or on another hole.
     Outer,
     /// The end on the hole.
     Hole,
@@ -51,7 +51,7 @@ pub enum EditorGrab {
     View,
 }
 
-/// State of the match editor.
+/// The match editor: its tool, its selection, its dragged object and the views of its panes.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct MatchEditor {
     /// Whether the editor is shown in place of the stage.

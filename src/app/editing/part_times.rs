@@ -93,7 +93,7 @@ pub fn staggered_times(sheet: &MatchSheet, order: StaggerOrder) -> Vec<PartTime>
     let mut pieces: Vec<usize> = (0..count).collect();
     pieces.sort_by(|a, b| rank(*a).total_cmp(&rank(*b)));
     let time = |(place, piece): (usize, usize)| {
-        // The last piece starts just early enough to end with the film.
+        // The pieces start at regular intervals, and the last piece ends with the film.
         let step = (1.0 - PART_DURATION) / (count.max(2) - 1) as f64;
         let from = round_to_thousandth(step * place as f64);
         let clock = PartClock {

@@ -50,8 +50,8 @@ impl MatchSheet {
         let [source, target] = staged.designs.as_slice() else {
             return None;
         };
-        // The designs are placed as on the stage, even if the settings have changed since, because
-        // the match belongs to the stage.
+        // The designs are placed as on the stage, even if the settings have changed since then,
+        // because the match was computed for this placement.
         let similarities = staged.frame_similarities().ok()?;
         let transition = session.transition();
         let matched = transition.and_then(Transition::matched);

@@ -39,8 +39,8 @@ pub fn choose_sample_points(rings: &[SheetRing], pins: &[PointPair]) -> Vec<Poin
     features
 }
 
-/// Selects at most `count` vertices greedily: in each step the one with the largest product of its
-/// corner score and its distance from pins and from the vertices already selected.
+/// Selects at most `count` vertices one after the other, each time the one with the largest product
+/// of its corner score and its distance from pins and from the vertices already selected.
 fn choose_on_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<PointPair> {
     let scores = scores(ring);
     let mut occupied: Vec<f64> = pins
@@ -89,7 +89,8 @@ fn ring_distance(a: f64, b: f64) -> f64 {
     gap.min(1.0 - gap)
 }
 
-/// Corner score of each vertex, summed over both designs.
+/// Corner score of each vertex: [`BASE_SCORE`] plus the absolute turning angles at the vertex in
+/// the source and in the target, as fractions of a full turn.
 fn scores(ring: &SheetRing) -> Vec<f64> {
     let mut scores = vec![BASE_SCORE; ring.positions.len()];
     for points in &ring.sides {

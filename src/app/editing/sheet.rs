@@ -15,9 +15,9 @@ use crate::design::{Design, DesignForm, Picture};
 use crate::geometry::{Bounds, DVec2, Side, Similarity};
 use crate::transition::PaintRule;
 
-/// Maximum distance between a cut that the user requested and its result, because the match may
-/// move the cut. The distance is summed over both ends of the cut, as a fraction of the designs'
-/// size (heuristic).
+/// Maximum distance between a cut that the user requested and a cut of the match that fulfils this
+/// request; the match may move the requested cut. The distance is summed over both ends of the cut,
+/// as a fraction of the designs' size (heuristic).
 const CUT_SHIFT: f64 = 0.25;
 
 /// Both designs and their match, placed in the common frame.
@@ -45,7 +45,7 @@ pub struct MatchSheet {
     pub lines: Vec<LinePair>,
     /// Content of the film; it decides whether pins move a boundary or the plane.
     pub content: Option<ContentKind>,
-    /// Cuts from holes to the boundaries around them, automatic or set by the user.
+    /// Cuts along which parts with holes open, automatic or set by the user.
     pub cuts: Vec<SheetCut>,
     /// Transformations from each design's own coordinates to the frame.
     pub frame_from_design: [Similarity; 2],
@@ -91,10 +91,10 @@ pub enum PieceFate {
     Disappears,
 }
 
-/// A cut from a hole to the boundary around it, which opens the ring between the two.
+/// A cut from a hole to another boundary of its part. The part opens along the cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SheetCut {
-    /// The cut that the match uses, or the request if the match has none for it.
+    /// The cut that the match uses, or the user's request if no cut of the match fulfils it.
     pub cut: RingCut,
     /// The cut as the user requested it; `None` for an automatic cut.
     pub requested: Option<RingCut>,
@@ -293,7 +293,7 @@ fn label_pieces(
     let unmatched: Vec<(Side, Option<usize>)> = unmatched
         .map(|part| (part.side, part_at(part.side, part.at)))
         .collect();
-    // Pairings refer to parts by points, but pieces refer to them by indices.
+    // Whether the user paired these parts, or marked one of them as unmatched.
     let is_user_set = |parts: &[Option<usize>; 2]| {
         let is_linked = parts.iter().all(Option::is_some) && linked.contains(parts);
         let is_unmatched =
@@ -349,8 +349,8 @@ fn label_position(piece: &PieceMatch, side: Side, above: &[&[Vec<DVec2>]]) -> DV
         .unwrap_or_default()
 }
 
-/// The cuts that the match uses, each with the user's request it fulfils; then the requests that
-/// the match does not fulfil.
+/// The cuts to show: first the cuts that the match uses, each with the user's request that it
+/// fulfils, if any; then the requests that the match does not fulfil.
 fn cuts(pieces: &[PieceMatch], requests: &[RingCut], diameter: f64) -> Vec<SheetCut> {
     let gap = |a: &RingCut, b: &RingCut| a.outer.distance(b.outer) + a.hole.distance(b.hole);
     let mut open_requests: Vec<usize> = (0..requests.len()).collect();

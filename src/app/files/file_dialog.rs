@@ -1,4 +1,5 @@
-//! State of the file dialog, which the panels draw inside the window.
+//! The file dialog: opens it on request, and turns the chosen files into intents. The panels draw
+//! the dialog inside the window.
 //!
 //! System dialogs are not used: they need a portal or helper program that may be missing, and then
 //! report that the user cancelled.

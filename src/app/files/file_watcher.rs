@@ -16,7 +16,7 @@ use crate::app::session::state::Session;
 /// Time between two polls of the files (heuristic).
 const POLL_INTERVAL: Duration = Duration::from_millis(700);
 
-/// Modification time and size of a file; `None` if it does not exist.
+/// Modification time and size of a file; `None` if they cannot be read, as for a missing file.
 type FileStamp = Option<(SystemTime, u64)>;
 
 /// Reads the modification time and size of a file.
@@ -29,9 +29,9 @@ fn stamp(path: &Path) -> FileStamp {
 #[derive(Debug)]
 struct WatchedFile {
     path: PathBuf,
-    /// State of the file when the program last read it.
+    /// Modification time and size of the file when the program last read it.
     read: FileStamp,
-    /// State of the file at the last poll.
+    /// Modification time and size of the file at the last poll.
     last: FileStamp,
 }
 

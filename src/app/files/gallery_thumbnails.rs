@@ -38,7 +38,7 @@ pub struct GalleryThumbnails {
 
 type StripsByName = HashMap<String, RgbaImage>;
 
-/// Task of a background job that obtains strips.
+/// Task of a background job: to read cached strips or to draw a strip.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum StripTask {
     /// Read all strips cached by an earlier run of the program.
@@ -78,8 +78,8 @@ impl GalleryThumbnails {
         self.done.get(name)
     }
 
-    /// Collects finished strips and returns the next task. If `is_urgent_elsewhere`, more urgent
-    /// work is running: then cancels a running task and returns no task that draws.
+    /// Collects finished strips and returns the next task. While more urgent work is running
+    /// (`is_urgent_elsewhere`), cancels the running task and returns no drawing task.
     fn next(&mut self, is_urgent_elsewhere: bool) -> Option<StripTask> {
         if let Some((task, job)) = &self.running {
             // Strips must not slow down the transition that the user waits for.

@@ -161,7 +161,7 @@ pub fn edit(
     }
 }
 
-/// Reports an error, or shows the text `nothing` if there was nothing to do.
+/// Reports an error as a problem; shows `nothing` as a confirmation if there was nothing to do.
 fn report_result(result: Result<bool, SaveError>, nothing: &str, notices: &mut Notices) {
     match result {
         Ok(true) => {}
@@ -284,7 +284,8 @@ pub fn save(
     }
 }
 
-/// State that [`poll`] keeps from one call to the next.
+/// Data that [`poll`] needs over several screen updates, to show each design's notes once and to
+/// start playback.
 #[derive(SystemParam)]
 pub struct PollState<'w, 's> {
     /// Open designs whose notes have been shown.
@@ -365,7 +366,7 @@ pub fn poll(
     }
 }
 
-/// Shows once, for each design, what was repaired or ignored when it was read.
+/// Shows the notes of each design once: they report repairs and omissions made when it was read.
 fn show_notes(designs: &[Arc<Design>], reported: &mut Vec<Arc<Design>>, notices: &mut Notices) {
     for design in designs {
         // A single design, paired with itself, has been read twice.

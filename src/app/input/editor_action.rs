@@ -56,7 +56,7 @@ pub enum EditorAction {
 pub struct EditorPointer {
     /// The design under the pointer.
     pub side: Side,
-    /// Position in the frame that both designs are placed in.
+    /// Position in the common frame of both designs.
     pub position: DVec2,
     /// Maximum distance from the pointer, in the frame's unit of length, at which a handle,
     /// boundary point or part is picked.

@@ -56,7 +56,8 @@ pub enum Intent {
     Undo,
     /// Redo the change that was undone last.
     Redo,
-    /// Replace the settings of the current segment; shared settings change for the whole project.
+    /// Replace the settings of the current segment. Its match settings and the timing of its parts
+    /// change for this segment only, all other settings for the whole project.
     ReplaceSettings(Box<Project>),
     /// Use the method with this warp and content.
     SetMethod(WarpKind, ContentKind),
@@ -125,12 +126,13 @@ pub enum Intent {
     CancelExport,
     /// Start or end a talk.
     Present {
-        /// Whether the window was opened for the talk and closes when the talk ends.
+        /// Whether the talk is all that the program was started for; the window closes when it
+        /// ends.
         is_all: bool,
     },
     /// Blacken the screen during a talk, or show the drawing again.
     ToggleBlackScreen,
-    /// Show or hide the speaker's window during a talk.
+    /// Show or hide the speaker window during a talk.
     ToggleSpeaker,
     /// Show or hide captions during a talk.
     ToggleCaptions,

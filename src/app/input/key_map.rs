@@ -96,8 +96,8 @@ impl KeyMap {
 
     /// Intent that a key event triggers, given the modifiers held; `None` if no binding matches.
     ///
-    /// A sign wins over a digit: if a digit's key prints a bound sign, the sign counts. Bindings of
-    /// the match editor win while it is open.
+    /// If the key of a digit prints a sign that has a binding, the binding of the sign applies.
+    /// While the match editor is open, its bindings take precedence over all others.
     #[must_use]
     pub fn intent(
         &self,

@@ -57,7 +57,7 @@ impl Default for Preferences {
     }
 }
 
-/// Export settings of a film, apart from its content.
+/// Export settings of a film, except its file type.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmExportOptions {
     /// Aspect ratio, resolution, margin and captions.
@@ -73,8 +73,8 @@ pub struct FilmExportOptions {
 }
 
 impl Default for FilmExportOptions {
-    /// Layout for slides at 25 frames per second. GIF counts time in hundredths of a second, so it
-    /// represents this rate exactly.
+    /// Returns the default layout and 25 frames per second. GIF counts time in hundredths of a
+    /// second, so it represents this rate exactly.
     fn default() -> Self {
         Self {
             layout: PictureLayout::default(),
@@ -123,7 +123,7 @@ impl FilmExportOptions {
 /// Behaviour at the end of an exported film.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FilmEnding {
-    /// Like the film on the stage.
+    /// The play mode of the film on the stage applies.
     #[default]
     AsPlayed,
     /// The film stops.
@@ -175,7 +175,8 @@ impl FilmFileFormat {
 }
 
 impl Preferences {
-    /// File type of an exported film with this content.
+    /// Returns the file type that the user chose or, if there is none, the default for this
+    /// content.
     #[must_use]
     pub fn format(&self, content: Option<ContentKind>) -> FilmFileFormat {
         self.record_format

@@ -36,8 +36,8 @@ const HATCH_COLOUR: Rgb = Rgb([196, 84, 40]);
 pub struct MapContours {
     landscape: Option<MapLandscape>,
     sampling: Option<BackgroundJob<MapLandscape, Cancelled>>,
-    /// Content of the drawn image: the measure, the colour, and the number of samples per side of
-    /// the map.
+    /// Measure, colour, and number of samples per side of the map, all for the image that was
+    /// started last.
     drawn: Option<(ShownMeasure, Rgb, usize)>,
     drawing: Option<BackgroundJob<Arc<RgbaImage>, Cancelled>>,
     picture: Option<Arc<RgbaImage>>,
@@ -67,8 +67,9 @@ impl MapContours {
         self.sampling.is_some() || self.drawing.is_some()
     }
 
-    /// Takes the next finer samples and, if needed, redraws the image in the colour `ink`; returns
-    /// whether the image is new.
+    /// Collects finished samples and images. Starts the background jobs that sample the map on the
+    /// next finer grid and draw an outdated image again, in the colour `ink`. Returns whether the
+    /// image is new.
     pub fn update(
         &mut self,
         space: &DesignSpace,
@@ -131,8 +132,8 @@ fn draw(landscape: &MapLandscape, shown: ShownMeasure, ink: Rgb) -> RgbaImage {
                 Some((value - min) / (max - min) * CONTOURS)
             };
             let centre_height = height(at)?;
-            // Change of the height (the measure's value, in steps of one contour) from one pixel to
-            // the next, by forward differences.
+            // Change of the height from one pixel to the next, by forward differences. The height
+            // is the measure's value above its minimum, in units of the interval between contours.
             let slope = DVec2::new(
                 height(at + DVec2::X * px)? - centre_height,
                 height(at + DVec2::Y * px)? - centre_height,

@@ -32,7 +32,7 @@ const MARKER_STEP: f64 = 0.02;
 #[error("{0}")]
 pub struct MapBuildError(Arc<ProjectError>);
 
-/// State of the map view.
+/// The map view: its marker, its settings, and the background job that builds the map.
 #[derive(Resource, Debug, Default)]
 pub struct MapView {
     /// Whether the map is shown in place of the stage.

@@ -33,7 +33,7 @@ pub struct Presentation {
 /// A talk in progress.
 #[derive(Clone, Debug, PartialEq)]
 struct ActiveTalk {
-    /// Whether the window was opened for the talk and closes when the talk ends.
+    /// Whether the talk is all that the program was started for; the window closes when it ends.
     is_all: bool,
     /// Whether t has been moved to the place where the talk starts; false until a film is built.
     has_begun: bool,
@@ -119,8 +119,8 @@ pub fn apply(
                 let window = windows.single_mut().ok();
                 let mode = window
                     .map(|(mut window, _)| std::mem::replace(&mut window.mode, fullscreen_mode()));
-                // A window opened for the talk may already be full screen. If the talk cannot
-                // begin, the window stays open in windowed mode.
+                // A window opened for the talk may already be full screen, so its mode is not
+                // stored. If the talk cannot begin, the window stays open in windowed mode.
                 let mode = mode.map(|mode| if *is_all { WindowMode::Windowed } else { mode });
                 presentation.begin(*is_all, (*preferences, mode));
                 // Closes everything but the drawing.
@@ -134,7 +134,8 @@ pub fn apply(
                 if talk.is_all {
                     commands.write_message(Intent::Close);
                 } else {
-                    // Restores the panels first, because closing the window may ask a question.
+                    // The panels are restored even after `Intent::Close`, because the user may
+                    // cancel the question that closing raises. The window then stays open.
                     *preferences = talk.before.0;
                     if let (Ok((mut window, _)), Some(mode)) = (windows.single_mut(), talk.before.1)
                     {

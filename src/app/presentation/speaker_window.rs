@@ -1,7 +1,7 @@
-//! The speaker's window of a talk: elapsed time, notes and the next stop.
+//! Speaker window of a talk: elapsed time, notes and the next stop.
 //!
 //! If there is a second screen, the audience's window moves to it when a talk starts, and the
-//! speaker's window opens on the first screen. With one screen, the speaker's window opens only on
+//! speaker window opens on the first screen. With one screen, the speaker window opens only on
 //! request.
 
 use std::sync::Arc;
@@ -27,11 +27,11 @@ use crate::transition::{Sequence, TransitionStyle};
 /// Width and height of the image of the next stop, in pixels (heuristic).
 const PICTURE_PX: (u32, u32) = (640, 360);
 
-/// Camera of the speaker's window.
+/// Camera of the speaker window.
 #[derive(Component, Debug)]
 pub struct SpeakerCamera;
 
-/// The speaker's window and its content.
+/// The speaker window and its content.
 #[derive(Resource, Debug, Default)]
 pub struct SpeakerWindow {
     /// Entities of the window and of its camera; `None` while the window is closed.
@@ -49,7 +49,7 @@ impl SpeakerWindow {
         self.window.is_some()
     }
 
-    /// Whether `window` is the speaker's window.
+    /// Whether `window` is the speaker window.
     #[must_use]
     pub fn owns_window(&self, window: Entity) -> bool {
         self.window.is_some_and(|(own, _)| own == window)
@@ -62,7 +62,7 @@ impl SpeakerWindow {
     }
 }
 
-/// Opens and closes the speaker's window.
+/// Opens and closes the speaker window.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut closing: MessageReader<WindowCloseRequested>,
@@ -72,9 +72,9 @@ pub fn apply(
     mut audience: Query<(&mut Window, Option<&OnMonitor>), With<PrimaryWindow>>,
     mut commands: Commands,
 ) {
-    // Screen for the audience's window during a talk: any screen except the one on which the window
-    // is now. Some systems do not report the screen of a window; then the speaker's window does not
-    // open by itself.
+    // `second` is the screen for the audience's window during a talk: any screen except the one on
+    // which this window is now. Some systems do not report the screen of a window; then the speaker
+    // window does not open by itself.
     let audience_screen = audience.single().ok().and_then(|(_, on)| Some(on?.0));
     let second = audience_screen.and_then(|first| monitors.iter().find(|screen| *screen != first));
     for intent in intents.read() {
@@ -104,7 +104,7 @@ pub fn apply(
     }
 }
 
-/// Opens the speaker's window on `screen`, or on the primary screen if it is `None`; returns the
+/// Opens the speaker window on `screen`, or on the primary screen if it is `None`; returns the
 /// window and its camera.
 fn open(commands: &mut Commands, screen: Option<Entity>) -> (Entity, Entity) {
     let screen = screen.map_or(MonitorSelection::Primary, MonitorSelection::Entity);
@@ -126,7 +126,7 @@ fn open(commands: &mut Commands, screen: Option<Entity>) -> (Entity, Entity) {
     (window, camera.id())
 }
 
-/// Closes the speaker's window, if it is open, and drops the image of the next stop.
+/// Closes the speaker window, if it is open, and drops the image of the next stop.
 fn close(speaker: &mut SpeakerWindow, commands: &mut Commands) {
     if let Some((window, camera)) = speaker.window.take() {
         commands.entity(camera).despawn();
@@ -135,8 +135,8 @@ fn close(speaker: &mut SpeakerWindow, commands: &mut Commands) {
     *speaker = SpeakerWindow::default();
 }
 
-/// While the speaker's window is open, draws the film at the next stop in the background whenever
-/// the film or that stop changes.
+/// While the speaker window is open, draws the film at the next stop in the background whenever the
+/// film or that stop changes.
 pub fn follow(mut speaker: ResMut<SpeakerWindow>, session: Res<Session>, playback: Res<Playback>) {
     if !speaker.is_open() {
         return;

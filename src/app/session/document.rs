@@ -1,4 +1,5 @@
-//! The open project: its settings, its saved state, its undo history and the segments on the stage.
+//! The open project: its current and its saved settings, its undo history, and the segments on the
+//! stage.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -371,7 +372,7 @@ impl OpenDocument {
             new.for_each(|(segment, built)| segment.problem = built.problem);
             return false;
         }
-        // The designs are adopted, but not the settings: the current ones may be newer.
+        // The current settings, `loaded.project`, stay: they may be newer than those of the build.
         self.loaded.designs = built.project.designs;
         self.staged = built.settings;
         self.must_reread = false;
@@ -473,7 +474,7 @@ impl OpenDocument {
         Ok(())
     }
 
-    /// Current state for the undo history.
+    /// Current settings and project folder, for the undo history.
     fn snapshot(&self) -> ProjectSnapshot {
         ProjectSnapshot {
             project: self.loaded.project.clone(),

@@ -11,7 +11,7 @@ use undo::{Edit, Merged, Record};
 use crate::project::Project;
 
 /// Maximum number of undo steps (resource limit: each stores two projects of some kilobytes, more
-/// if triangles have individual weights).
+/// if each face has its own weight in the ARAP energy).
 const MAX_STEPS: usize = 200;
 
 /// The project at one moment, as stored in an undo step.

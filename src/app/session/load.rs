@@ -153,7 +153,8 @@ impl RebuildRequest {
         progress: &dyn Progress,
         on_interim: &mut dyn FnMut(InterimResult),
     ) -> Result<BuiltProject, LoadError> {
-        // These shortcuts avoid the slow steps of a build while a slider is dragged.
+        // For some changes, new segments are derived quickly from those on the stage, so that the
+        // stage follows a dragged slider.
         if !self.must_reread
             && let Some(stages) = self
                 .with_new_field_blend()
@@ -203,9 +204,9 @@ impl RebuildRequest {
         self.reuse_segments(change, |_, transition| transition.with_blend(blend).ok()?)
     }
 
-    /// Derives the new transition of each segment from the one on the stage, by `make`. Returns
-    /// `None` if the old and new settings still differ after `change` has copied some of the new
-    /// options to the old ones.
+    /// Derives the new transition of each segment with `make` from the one on the stage. Returns
+    /// `None` if the settings differ in more than the options that `change` copies from the new
+    /// settings to the old ones.
     ///
     /// A fallback on the stage, shown for a segment that could not be built, has other settings and
     /// is never reused.
@@ -387,7 +388,7 @@ fn build_in_steps(
     };
     let drafts: Vec<Option<PlayableSegment>> = (0..segments.len()).map(draft).collect();
     let has_drafts = drafts.iter().any(Option::is_some);
-    // Shown until the segment is built, and afterwards if building it fails.
+    // The fallback is shown until the segment is built, and stays if building it fails.
     let fallback = |index: usize| {
         let before = plain.get(index).cloned().flatten();
         reusable[index].clone().or(drafts[index].clone()).or(before)

@@ -1,4 +1,4 @@
-//! Where a project and its designs come from.
+//! Origin of a project, and absolute paths of its designs.
 
 use std::path::{Path, PathBuf};
 

@@ -388,8 +388,8 @@ impl Session {
         }
     }
 
-    /// Checks whether the changed settings require another transition than the one on the stage or
-    /// the one being built.
+    /// Updates `is_stale`: whether the changed settings require another transition than the one on
+    /// the stage and the one being built. Cancels a rebuild that is no longer needed.
     fn check_stale(&mut self) {
         let Some(open) = &mut self.open else {
             return;

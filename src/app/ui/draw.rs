@@ -122,7 +122,7 @@ fn record_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<PanelRepa
 struct UiOutputs<'w> {
     /// Set while a text field, a menu or the file dialog receives all keys.
     typing: ResMut<'w, KeyboardFocus>,
-    /// Set while text in a panel is selected.
+    /// Set while text of a notice is selected.
     text_selected: ResMut<'w, TextSelected>,
     /// Set to the rectangle of the stage in the window.
     area: ResMut<'w, StageArea>,
@@ -174,8 +174,8 @@ fn draw(
     Ok(())
 }
 
-/// Draws the content of the space between the panels: the overlays of the stage, the comparison,
-/// the map, the match editor or the presentation.
+/// Draws the content of the space between the panels: the presentation, the match editor, the map,
+/// the comparison, or the overlays of the stage.
 ///
 /// Returns the rectangle in which the stage is visible.
 fn stage_content(
@@ -248,8 +248,8 @@ fn overlays(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &m
     if state.editor.is_open {
         match_editor::overlay(ctx, state, stage, intents);
     }
-    // If the panels are hidden, the audience sees only the drawing. Notices are shown once the
-    // panels are visible again.
+    // Progress and notices are hidden together with the panels, so that only the drawing is
+    // visible. They appear again with the panels.
     if state.preferences.panels {
         messages(ctx, state, stage, intents);
     }

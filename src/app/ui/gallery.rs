@@ -49,7 +49,7 @@ pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, inte
         });
 }
 
-/// Draws a line for each recently opened project; a click opens it.
+/// Lists the titles of recently opened projects; a click on a title opens the project.
 fn recent(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let opened = state.recent.entries();
     if opened.is_empty() {

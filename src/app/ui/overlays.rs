@@ -1,5 +1,5 @@
-//! Parts of the user interface that appear on demand: file dialog, list of shortcuts, questions,
-//! notices, progress of jobs, and frame times.
+//! Overlays of the user interface, which appear on demand: file dialog, list of shortcuts,
+//! questions, notices, progress of jobs, and frame times.
 
 pub mod file_dialog;
 mod file_side_panel;

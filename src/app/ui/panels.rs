@@ -1,5 +1,5 @@
-//! Sections of the inspector, the panel on the right. Each module draws one section or a group of
-//! sections.
+//! Inspector (the panel on the right), its sections, and the export settings that replace them.
+//! Each module of sections draws one section or several.
 
 pub mod appearance;
 pub mod content;

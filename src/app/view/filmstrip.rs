@@ -130,7 +130,7 @@ pub fn draw_strip(
     cell_px: UVec2,
 ) -> Result<RgbaImage, PixelSizeError> {
     let size = PixelSize::new(cell_px.x.saturating_mul(times.len() as u32), cell_px.y)?;
-    // One common frame for all cells, so that growth is visible.
+    // All cells show the same section of the plane, so that growth is visible.
     let bounds = framing(sequence, times);
     let cell = cell_px.as_dvec2();
     let mut drawing = Drawing::new(size, None);

@@ -20,7 +20,7 @@ use bevy::window::PrimaryWindow;
 /// extend beyond the shapes (heuristic).
 const MARGIN: f64 = 0.04;
 
-/// Applies the intents that concern the view.
+/// Applies the intents that fit, pan and zoom the view.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut view: ResMut<StageView>,
@@ -42,7 +42,7 @@ pub fn apply(
     }
 }
 
-/// State of [`fit`] that lasts from one frame of the window to the next.
+/// Values that [`fit`] keeps from one frame of the window to the next.
 #[derive(SystemParam)]
 pub struct FitState<'s> {
     /// Values at the last fit: the fitted bounds in the plane, the size of the stage area, and the
@@ -53,6 +53,7 @@ pub struct FitState<'s> {
 }
 
 /// Fits the view again when the stage area, the transition or the rectangle of the export changes.
+/// If the user has panned or zoomed, only the film pane of the match editor is fitted.
 pub fn fit(
     session: Res<Session>,
     editor: Res<MatchEditor>,
@@ -167,8 +168,8 @@ pub fn place_comparison_camera(
 }
 
 /// Returns the viewport of an area, clipped to the window: the window may be smaller than the area
-/// while it is being resized. Returns `None` if nothing of the area is in the window; the camera
-/// then fills the whole window.
+/// while it is being resized. Returns `None` if nothing of the area is in the window: the camera of
+/// the stage then fills the window, and that of the comparison is off.
 fn viewport(area: StageArea, window: &Window) -> Option<Viewport> {
     let scale = window.scale_factor();
     let window_px = window.physical_size();

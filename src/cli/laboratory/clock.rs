@@ -29,7 +29,7 @@ pub(in crate::cli) struct StageClock<'a> {
     timer: Mutex<StageTimer>,
 }
 
-/// Current progress stage and the durations so far.
+/// Current progress stage, and the durations of the stages that have ended.
 #[derive(Default)]
 struct StageTimer {
     /// Name of the current progress stage and the moment of its first report; `None` before the

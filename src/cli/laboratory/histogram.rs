@@ -8,11 +8,12 @@ use super::number::short;
 /// times the previous one.
 const SERIES: [f64; 5] = [1.0, 1.6, 2.5, 4.0, 6.3];
 
-/// Maximum number of bins that are one step of [`SERIES`] wide. If the values range further, one
-/// wider bin below and one above contain the rest (heuristic).
+/// Maximum number of bins of the usual width, from one number of [`SERIES`] to the next. If the
+/// values range further, one wider bin below and one above contain the rest (heuristic).
 const MAX_STEPS: usize = 12;
 
-/// Length of the longest bar, in characters. Edges and count before it take 26 more (heuristic).
+/// Length of the longest bar, in characters (heuristic). The edges and the count of the bin, which
+/// precede the bar on its line, take 26 characters more.
 const MAX_BAR_LENGTH: usize = 40;
 
 /// Number of values in each bin.

@@ -312,7 +312,8 @@ impl PairJob<'_> {
         Ok(InputArgs::pair(source, target))
     }
 
-    /// Returns the names of both designs, or the line of a row without a pair.
+    /// Returns the names of the two designs; for a row without a valid pair, its line number in the
+    /// table.
     fn name(&self) -> String {
         match self.pair() {
             Ok(pair) => pair

@@ -77,7 +77,7 @@ impl PartialTable {
                     let written = file.write_all(header);
                     let saved = Mutex::new(SavedRows { file, count: 0 });
                     let partial = Self { path, saved };
-                    // A file without a header is of no use.
+                    // If the header could not be written, the file is of no use and is removed.
                     return match written {
                         Ok(()) => Ok(partial),
                         Err(error) => partial.remove().and(Err(error)),

@@ -103,7 +103,8 @@ impl SpaceMeasurement {
     /// Adds the measures of the blend with equal weights and of the blends spread over all weights.
     fn add_blend_statistics(&self, lines: &mut NumberLines) {
         let report = &self.report;
-        // In these rows, the column with the difference between two designs is empty.
+        // These rows belong to no pair of designs, so the column with the difference between two
+        // designs is empty.
         let empty = || std::iter::once(String::new());
         lines.cells(
             ("equal weights", NAME_WIDTH),

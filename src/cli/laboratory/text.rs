@@ -51,7 +51,7 @@ impl NumberLines {
     }
 }
 
-/// Adds the method, the designs with their import notes, and the mesh.
+/// Adds the method, the designs with their import notes, and the mesh to the text.
 fn method(report: &PairReport, lines: &mut NumberLines) {
     let content = match report.content {
         ContentKind::Solid => "",
@@ -125,7 +125,7 @@ fn check(report: &PairReport, lines: &mut NumberLines) {
     }
 }
 
-/// Adds the distortion at t = 1, and by how much it is exceeded at smaller t.
+/// Adds the distortion at t = 1 to the text, and by how much the distortion at other t exceeds it.
 fn distortion(report: &PairReport, mesh: &MeshReport, lines: &mut NumberLines) {
     lines.gap();
     let heads = ["median", "95 %", "worst", "           overshoot"];
@@ -145,7 +145,7 @@ fn distortion(report: &PairReport, mesh: &MeshReport, lines: &mut NumberLines) {
     }
 }
 
-/// Adds the measures of the whole film.
+/// Adds the measures of the whole film to the text.
 fn film(report: &PairReport, lines: &mut NumberLines) {
     let film = &report.film;
     lines.gap();

@@ -38,8 +38,8 @@ pub(super) fn shared_rings(
             return Err(k);
         }
     }
-    // The rings of any one match can be used to go through the rings of the hub, because the hub is
-    // the source of every match.
+    // The rings of any one match suffice to go through the rings of the hub, because the hub is the
+    // source of every match.
     let Some((base, first)) = matches
         .iter()
         .enumerate()
@@ -163,12 +163,13 @@ fn merged_rings(
 ) -> Result<Vec<Vec<DVec2>>, usize> {
     let corners = shared_corners(lists)?;
     let mut rings = vec![Vec::new(); lists.len()];
-    // Returns the index of a corner of the hub in the list of points of a match.
+    // Returns the index of a corner of the hub among the hub's points in a match.
     let index = |list: &RingMatch, corner: DVec2| {
         let is_it = |p: &DVec2| key(*p) == key(corner);
         list.source.iter().position(is_it)
     };
-    // For each design, the index of the current corner in its match's list of points.
+    // For each design: the index of the current corner among the hub's points in the match with
+    // this design. It is 0 for the hub, which has no match.
     let mut corner_index = Vec::new();
     for (k, list) in lists.iter().enumerate() {
         corner_index.push(match list {

@@ -1,8 +1,9 @@
 //! Advancing front that triangulates a piece (a matched connected part) from its boundary inwards,
 //! in two designs at once.
 //!
-//! Each step either cuts off a corner of the front, or replaces a stretch of the front by two edges
-//! to a new point. In each design, the new point sees the whole stretch.
+//! The front advances in steps. Each step either cuts off a corner of the front, or replaces a
+//! stretch of the front by two edges to a new point. In each design, the new point sees the whole
+//! stretch.
 
 use super::boundary_rings::BoundaryRings;
 use super::edge_grid::EdgeGrid;
@@ -27,7 +28,7 @@ const CLEARANCE: f64 = 1.5;
 /// term is 1 for an equilateral triangle and 3 for a right triangle with legs 1 and 5.
 const MAX_CORNER_SHAPE: f64 = 3.0;
 
-/// State of the front: the rings that bound the region left to triangulate, and the faces that have
+/// Advancing front: the rings that bound the region left to triangulate, and the faces that have
 /// already been built between these rings and the piece's boundary.
 pub(super) struct AdvancingFront {
     /// Positions of all vertices in both designs. The vertices of the piece's rings come first.
@@ -117,15 +118,16 @@ impl<'a> FrontRing<'a> {
         }
     }
 
-    /// Makes one pass around the ring and takes every step that fits. `turn` is the number of
-    /// earlier passes; the pass starts at position `turn` modulo 3.
+    /// Makes one pass around the ring. Cuts off corners and replaces stretches wherever that is
+    /// possible. `turn` is the number of earlier passes; the pass starts at position `turn` modulo
+    /// 3.
     pub(super) fn advance(
         &mut self,
         turn: usize,
         progress: &dyn Progress,
     ) -> Result<(), Cancelled> {
-        // Each pass starts one position later. From the same start, a pass would try again only the
-        // stretches that did not fit in the previous pass.
+        // The start differs from pass to pass. With the same start, a pass would mostly try
+        // stretches that have already failed.
         let len = self.len();
         let mut at = turn % 3;
         let end = at + len;
@@ -273,8 +275,8 @@ impl<'a> FrontRing<'a> {
             .fold(0.0, f64::max);
         let sides = self.sides(d, at, stretch.len() - 1);
         let last = places.len() - 1;
-        // The square keeps the visibility kernel near the stretch. An unbounded kernel could extend
-        // across the whole piece.
+        // The kernel (the points that see the whole stretch) is clipped to a square around the
+        // stretch. Otherwise it could extend across the whole piece.
         REACHES.into_iter().find_map(|reach| {
             let point = centre_of_kernel(middle, reach * extent, &sides)?;
             // The sight lines from the first and the last vertex of the stretch bound the fan of
@@ -287,7 +289,7 @@ impl<'a> FrontRing<'a> {
                 .windows(2)
                 .map(|edge| [edge[0], edge[1], point])
                 .collect();
-            // Checked by exact predicates, because the clipped kernel is subject to rounding.
+            // Checked by exact predicates, because the computed point is subject to rounding.
             let fits = sides.iter().all(|&[a, b]| orient2d(a, b, point) > 0.0)
                 && sees(point)
                 && sees(middle + CLEARANCE * (point - middle))

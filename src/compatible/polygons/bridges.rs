@@ -107,7 +107,8 @@ impl PieceLoops {
         self.0.iter().flatten()
     }
 
-    /// Returns the bridge with the fewest inner points from the first loop to any other loop.
+    /// Returns the bridge with the fewest inner points (points between its ends) from the first
+    /// loop to any other loop.
     fn bridge(&self) -> Result<Bridge, PieceMeshError> {
         let graphs = [
             MidpointGraph::of(self, Side::Source)?,

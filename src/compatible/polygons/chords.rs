@@ -13,20 +13,21 @@ use crate::mesh::sides;
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
-/// Maximum number of vertices for which crossings are minimised (resource limit: each turn is a
-/// search in O(n³), over 10 million triangles at this size). Larger polygons use their Delaunay
-/// triangulations.
+/// Maximum number of vertices of a polygon for which the crossings between the two triangulations
+/// are minimised (resource limit: each turn is a search in O(n³), over 10 million triangles at this
+/// size). Larger polygons use their Delaunay triangulations.
 const MAX_SEARCHED: usize = 400;
-/// Number of turns (heuristic). In each turn one polygon is triangulated again, to cross the
-/// triangulation of the other less.
+/// Number of turns (heuristic). In each turn one polygon is triangulated again, so that its chords
+/// cross fewer chords of the other polygon's triangulation.
 const TURNS: usize = 4;
-/// Shape cost of a flat triangle, the largest of all, in crossings (derived: there are fewer than
-/// [`MAX_SEARCHED`] triangles, so their shape costs add up to less than one crossing. Shape
-/// therefore decides only between triangulations with equally many crossings).
+/// Cost of the shape of a flat triangle, if one crossing of two chords costs 1. All other shapes
+/// cost less (derived: there are fewer than [`MAX_SEARCHED`] triangles, so their shape costs add up
+/// to less than one crossing. Shape therefore decides only between triangulations with equally many
+/// crossings).
 const SHAPE_COST: f64 = 1e-3;
-/// Cost, in crossings, of a triangle that is flat up to rounding, such as one with all corners on a
-/// straight side (derived: more than the 158,000 crossings that are possible, so such triangles are
-/// used only if there is no other way. Such a triangle has no room for crossings).
+/// Additional cost of a triangle that is flat up to rounding, such as one with all corners on a
+/// straight side, if one crossing of two chords costs 1 (derived: more than the 158,000 crossings
+/// that are possible, so such triangles are used only if there is no other way).
 const SLIVER_COST: f64 = 1e6;
 /// A triangle counts as flat up to rounding if its [`flatness`] differs from 1 by less than this
 /// (tolerance: it corresponds to a height of about 6e-8 of the base, the error of points on a side
@@ -192,8 +193,8 @@ fn cheapest_triangulation(
             best[i * n + i + 1].0 = 0.0;
         }
     }
-    // Short chords come before long ones, so that the two parts of the polygon on both sides of a
-    // triangle are already solved.
+    // Short chords come before long ones, so that the costs of the two parts of the polygon on both
+    // sides of a triangle are already known.
     for length in 2..n {
         check_cancelled(progress)?;
         for i in 0..n - length {

@@ -21,8 +21,8 @@ const MIN_GAIN: f64 = 0.02;
 /// less than half).
 const MAX_TURNS: usize = 40;
 
-/// Moves the front inwards until it has at most `max_size` points, or until a turn removes too few
-/// points.
+/// Moves the front inwards until it has at most `max_size` points, or until a turn (one pass along
+/// the whole front) removes too few points.
 pub(super) fn coarsen(
     source: &BoundaryRings,
     target: &BoundaryRings,

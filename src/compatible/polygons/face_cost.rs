@@ -98,8 +98,9 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Opti
 }
 
 /// For each design, the stiffness of each edge: the second derivative of the cost with respect to
-/// that edge vector, at fixed areas and with the other design fixed. A single stiffness may be
-/// negative, but the stiffness matrix of the face is positive semidefinite.
+/// that edge vector, at fixed areas and with the other design fixed. Springs of this stiffness
+/// precondition the minimisation of the cost. A single stiffness may be negative, but the stiffness
+/// matrix of the face is positive semidefinite.
 pub(super) fn stiffness(p: FaceCorners, q: FaceCorners) -> [[f64; 3]; 2] {
     let det = [p, q].map(twice_area);
     let e = [edges(p), edges(q)];

@@ -24,8 +24,8 @@ use crate::work::progress::{Cancelled, Progress, ProgressSpan, check_cancelled, 
 /// (heuristic).
 const POINTS_ALONG: f64 = 24.0;
 
-/// Minimum distance of a filling point from all earlier points, in units of the spacing of its
-/// lattice (heuristic: less than the 0.87 between two rows of a triangular lattice).
+/// Minimum distance of a new point from all points that were placed before it, in units of the
+/// spacing of its lattice (heuristic: less than the 0.87 between two rows of a triangular lattice).
 const MIN_DISTANCE: f64 = 0.6;
 
 /// Narrowest spacing of points around a pin, as a fraction of the distance to the nearest other pin
@@ -82,8 +82,8 @@ pub enum FramePinsError {
         /// Indices of the pins nearest to the folds, from 0.
         pins: Vec<usize>,
     },
-    /// The filling points could not be triangulated, because the frame's coordinates are out of
-    /// range.
+    /// The points that fill the frame could not be triangulated, because the frame's coordinates
+    /// are out of range.
     #[error(transparent)]
     Triangulation(#[from] TriangulationError),
     /// The mesh is valid in the scaled coordinates in which it was computed, but rounding to the
@@ -153,8 +153,8 @@ impl CompatibleMesh {
         // The mesh moves in several steps, so that edges can be flipped between the steps.
         for step in 1..=STEPS {
             let along = f64::from(step) / f64::from(STEPS);
-            // `fixed_targets` contains only the border vertices, which stay in place, and the pins.
-            // `zip` ends with it, so all other vertices get no waypoint.
+            // `fixed_targets` contains the targets of the border vertices, which stay in place, and
+            // of the pins. `zip` stops after them, so the other vertices get no waypoint.
             let waypoints: Vec<DVec2> = (mesh.points[0].iter().zip(&fixed_targets))
                 .map(|(p, q)| *p + (*q - *p) * along)
                 .collect();
@@ -216,7 +216,7 @@ fn distinct_pins(
     Ok(distinct)
 }
 
-/// Widest spacing between filling points, in units of the plane.
+/// Widest spacing between the points that fill the frame, in units of the plane.
 fn spacing(frame: &Bounds) -> f64 {
     frame.size().max_element() / POINTS_ALONG
 }
@@ -278,8 +278,8 @@ fn triangular_lattice(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> 
     let (columns, count) = ((size.x / step.x) as u32 + 1, (size.y / step.y) as u32);
     let low = frame.min;
     let place = move |i: u32, j: u32| {
-        // Odd rows are shifted by half a step against even rows, so that the triangles are
-        // equilateral.
+        // Odd rows are shifted by half a lattice spacing against even rows, so that the triangles
+        // are equilateral.
         let shift = if j.is_multiple_of(2) { 0.25 } else { 0.75 };
         low + step * DVec2::new(f64::from(i) + shift, f64::from(j) + 0.5)
     };

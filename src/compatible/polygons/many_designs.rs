@@ -22,11 +22,12 @@ use rayon::prelude::*;
 /// Faces as triples of vertex indices, and the vertex positions in each design.
 type SharedTriangulation = (Vec<[u32; 3]>, Vec<Vec<DVec2>>);
 
-/// The search for triangulations ends when the number of valid ones times the number of designs
+/// The search for common triangulations ends when the number found times the number of designs
 /// reaches this (resource limit: that is three triangulations of four designs, or one of twelve).
 const ENOUGH_TRANSFERS: usize = 12;
 
-/// Maximum number of rounds of distortion reduction after each transfer (heuristic).
+/// Maximum number of rounds of distortion reduction after a mesh is transferred to another design
+/// (heuristic).
 const REDUCTION_ROUNDS: usize = 3;
 
 /// Triangulates one piece in all designs. `rings[ring][design]` is a list of points. `first` is the
@@ -147,9 +148,9 @@ fn refined_mesh(
     Ok(Some(mesh))
 }
 
-/// Reduces the distortion of a transferred mesh, if it has no folds. If the transfer had no folds
-/// to remove, inner vertices may lie where the harmonic map has put them, and the harmonic map
-/// distorts more than necessary.
+/// Reduces the distortion of a mesh that is free of folds after its transfer; leaves other meshes
+/// unchanged. The inner vertices may lie where the harmonic map has placed them, and the harmonic
+/// map distorts more than necessary.
 fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
     for _ in 0..REDUCTION_ROUNDS {
         let before = mesh.points[1].clone();

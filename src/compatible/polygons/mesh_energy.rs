@@ -91,8 +91,8 @@ impl<'a> MeshEnergy<'a> {
         4 * self.inner.len() + self.sliders.len()
     }
 
-    /// Takes at most `steps` descent steps. Returns the vertex positions in both designs and the
-    /// slides.
+    /// Lowers the cost in at most `steps` descent steps. Returns the vertex positions in both
+    /// designs and the slides.
     pub(super) fn minimise(
         mut self,
         steps: usize,

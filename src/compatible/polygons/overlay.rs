@@ -121,7 +121,8 @@ impl OverlayVertices {
         let mut edges: Vec<(u32, u32)> = Vec::with_capacity(6);
         for (design, own, other) in [(0, s, t), (1, t, s)] {
             for side in sides(own) {
-                // If a side belongs to both triangles, the loop meets it twice. It is added once.
+                // A side that belongs to both triangles is found twice, once for each design. It is
+                // added once.
                 if let Some(edge) = self.clipped_side(design, side, other)
                     && !edges.contains(&edge)
                 {

@@ -90,8 +90,8 @@ impl PairMesh {
     /// Moves all vertices to `points` unless that makes a face invalid. Returns whether the
     /// vertices moved.
     ///
-    /// The check uses exact predicates, because the new positions were found by costs in floating
-    /// point, which may be finite for a face that is flat.
+    /// The check uses exact predicates, because the new positions result from minimising a cost in
+    /// floating point. This cost may be finite although a face is flat.
     pub(super) fn move_to(&mut self, points: [Vec<DVec2>; 2]) -> bool {
         let before = std::mem::replace(&mut self.points, points);
         let is_valid = self.is_valid();

@@ -12,24 +12,24 @@ use crate::mesh::sides;
 use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 use std::collections::HashSet;
 
-/// Number of rounds of flips, splits and moves (heuristic).
+/// Number of rounds of flips, splits and moves in [`improve`] (heuristic).
 const ROUNDS: usize = 5;
-/// Maximum number of descent steps before two candidate meshes are compared; only the better one is
-/// improved further (heuristic).
+/// Maximum number of descent steps for each of two candidate meshes before the two are compared;
+/// only the better one is improved further (heuristic).
 const FIRST_STEPS: usize = 20;
-/// Maximum number of descent steps in the last round (heuristic).
+/// Maximum number of descent steps in the last round of [`improve`] (heuristic).
 const LAST_STEPS: usize = 60;
-/// Maximum number of descent steps in each earlier round (heuristic: few, because the next round
-/// changes the mesh again).
+/// Maximum number of descent steps in each earlier round of [`improve`] (heuristic: few, because
+/// the next round changes the mesh again).
 const EARLY_STEPS: usize = 8;
-/// Maximum product of descent steps and faces in a round (resource limit: it reduces the steps only
-/// of meshes with more than 20,000 faces).
+/// Maximum product of descent steps and faces in a round of [`improve`] (resource limit: it reduces
+/// the steps only of meshes with more than 20,000 faces).
 const MAX_WORK: usize = 1_200_000;
 /// Face cost above which a face is split, until the mesh has reached its maximum number of inner
 /// vertices (heuristic: an undistorted equilateral face costs about 3).
 const COSTLY: f64 = 6.0;
-/// Maximum product of the number of faces and the round number while unneeded vertices are removed.
-/// Beyond it, the removal ends and the remaining vertices stay (resource limit).
+/// Unneeded vertices are removed in rounds, as long as the product of the number of faces and the
+/// round number does not exceed this. The remaining vertices stay (resource limit).
 const MAX_THINNING_WORK: usize = 150_000;
 /// Maximum number of rounds in which unneeded vertices are removed from a base mesh
 /// ([`super::bridges`]) (resource limit).
@@ -77,7 +77,7 @@ pub(super) fn refit(
     flip_all(mesh, progress)
 }
 
-/// Runs one round of flips and moves, without new vertices.
+/// Flips edges, and then moves the inner vertices; adds no vertices.
 pub(super) fn relax_and_flip(
     mesh: &mut PairMesh,
     progress: &dyn Progress,

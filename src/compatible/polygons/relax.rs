@@ -10,8 +10,9 @@ use super::pair_mesh::PairMesh;
 use super::springs::Springs;
 use crate::work::progress::Progress;
 
-/// Takes at most `steps` descent steps with all inner vertices. Leaves the mesh unchanged if
-/// rounding makes a face of the result invalid. A cancel ends the descent early.
+/// Lowers the sum of the face costs by moving all inner vertices, in at most `steps` descent steps.
+/// Leaves the mesh unchanged if rounding makes a face of the result invalid. A cancel ends the
+/// descent early.
 pub(super) fn relax(mesh: &mut PairMesh, steps: usize, progress: &dyn Progress) {
     let energy = MeshEnergy::of_inner_vertices(mesh, face_cost::AREA_WEIGHT);
     let Some([mut source, mut target]) = springs(&energy, mesh, progress) else {
@@ -27,9 +28,9 @@ pub(super) fn relax(mesh: &mut PairMesh, steps: usize, progress: &dyn Progress) 
     mesh.move_to(points);
 }
 
-/// Returns two networks of springs, one for each design, whose stiffness is the second derivative
-/// of the cost at fixed face areas. `None` if a stiffness matrix is not positive definite, or on a
-/// cancel.
+/// Returns two networks of springs, one for each design, that precondition the descent. Their
+/// stiffness is the second derivative of the cost at fixed face areas. `None` if a stiffness matrix
+/// is not positive definite, or on a cancel.
 fn springs(energy: &MeshEnergy, mesh: &PairMesh, progress: &dyn Progress) -> Option<[Springs; 2]> {
     let of = |d: usize| {
         let springs = energy.faces.iter().flat_map(|&(face, weight)| {

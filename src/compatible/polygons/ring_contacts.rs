@@ -60,7 +60,7 @@ impl LoopEdges {
 }
 
 /// Returns the indices of two edges that touch or cross where they must not; `None` if there are
-/// none. Crossings are preferred to vertices that coincide without a slit.
+/// none. A crossing takes precedence over vertices that coincide without a slit.
 pub(super) fn touching_edges(loops: &[&[DVec2]]) -> Option<[usize; 2]> {
     let edges = LoopEdges::of(loops);
     let all: Vec<usize> = (0..edges.next.len()).collect();

@@ -26,14 +26,15 @@ use crate::work::progress::Progress;
 /// their angles could shrink whole limbs to a point.
 const AREA: f64 = 0.45;
 
-/// Number added to the diagonal entry of each unknown, as a fraction of the summed absolute
-/// stiffness of the springs that act on this unknown (tolerance: keeps the matrix positive definite
-/// where springs of positive and negative stiffness cancel).
+/// Number added to the diagonal entry of each unknown in the stiffness matrix, as a fraction of the
+/// summed absolute stiffness of the springs that act on this unknown (tolerance: keeps the matrix
+/// positive definite where springs of positive and negative stiffness cancel).
 const REGULARISATION: f64 = 1e-6;
 
-/// Maximum number of descent steps in a round. After each round the mesh is adapted (heuristic).
+/// Maximum number of descent steps in a round of [`slide_outlines`]. After each round edges are
+/// flipped and costly faces are split (heuristic).
 const STEPS: usize = 20;
-/// Number of rounds of descent and adaptation (heuristic).
+/// Number of rounds of descent and mesh adaptation in [`slide_outlines`] (heuristic).
 const ROUNDS: usize = 4;
 
 /// Returns new positions of the vertices along the outlines (fractions of the whole outline): for
@@ -135,8 +136,8 @@ fn equal_area_pair(mesh: &CompatibleMesh, fixed: usize, sides: [Side; 2]) -> (Pa
     (pair, scales)
 }
 
-/// Quadratic approximation of the cost at fixed areas, as a network of springs between vertices in
-/// both designs. A sliding vertex has a single unknown, which moves it in both designs.
+/// Network of springs that approximates the cost at fixed areas. Each design has springs between
+/// its vertices. A sliding vertex has a single unknown, which moves it in both designs.
 struct QuadraticProxy {
     factor: Cholesky,
     workspace: CholeskyWorkspace,
@@ -204,7 +205,8 @@ impl QuadraticProxy {
         Some(Self { factor, workspace })
     }
 
-    /// Replaces the forces on all unknowns by the displacements that they cause.
+    /// Replaces `forces`, the right-hand side of a linear system with the stiffness matrix, by the
+    /// solution of the system.
     fn solve(&mut self, forces: &mut [f64]) {
         self.factor.solve_in_place(forces, &mut self.workspace);
     }

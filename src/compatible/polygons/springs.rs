@@ -1,13 +1,14 @@
-//! Network of springs along the edges of a mesh, used as a sparse preconditioner. With it, the
-//! number of minimisation steps does not grow with the mesh (Kovalsky, Galun, Lipman 2016,
-//! "Accelerated quadratic proxy for geometric optimization").
+//! Network of springs along the edges of a mesh. Its stiffness matrix preconditions the
+//! minimisation of a cost of the mesh: the number of minimisation steps then does not grow with the
+//! mesh (Kovalsky, Galun, Lipman 2016, "Accelerated quadratic proxy for geometric optimization").
 
 use crate::numerics::{Cholesky, CholeskyWorkspace, SymmetricMatrix};
 use crate::work::progress::Progress;
 
 /// Number added to each diagonal entry of the stiffness matrix, as a fraction of the mean stiffness
 /// per movable vertex (tolerance: keeps the matrix positive definite where springs of positive and
-/// negative stiffness cancel; small enough that steps hardly shorten, and far above rounding).
+/// negative stiffness cancel; small enough that descent steps hardly shorten, and far above
+/// rounding).
 const REGULARISATION: f64 = 1e-6;
 
 /// Stiffness matrix of a network of springs, in factored form.
@@ -49,8 +50,8 @@ impl Springs {
         Some(Self { factor, workspace })
     }
 
-    /// Replaces the forces on the movable vertices by the displacements that they cause. The list
-    /// contains all x components, then all y components.
+    /// Replaces `forces`, the right-hand side of a linear system with the stiffness matrix, by the
+    /// solution of the system. The list contains all x components, then all y components.
     pub(super) fn solve(&mut self, forces: &mut [f64]) {
         self.factor.solve_in_place(forces, &mut self.workspace);
     }

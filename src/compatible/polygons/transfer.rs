@@ -18,11 +18,11 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 /// Maximum number of rounds of fold removal (resource limit: [`PATIENCE`] usually ends the removal
 /// earlier).
 pub(super) const MAX_ROUNDS: usize = 60;
-/// Number of rounds of fold removal after which the transfers in both directions stop, if either is
-/// free of folds by then (heuristic).
+/// Number of rounds of fold removal after which the transfers, from source to target and from
+/// target to source, stop if either is free of folds by then (heuristic).
 pub(super) const FIRST_ROUNDS: usize = PATIENCE;
-/// Number of rounds in which the number of folds must decrease to the fraction [`MAX_REMAINING`];
-/// otherwise the transfer is given up (heuristic).
+/// Number of rounds of fold removal in which the number of folds must decrease to the fraction
+/// [`MAX_REMAINING`]; otherwise the transfer is given up (heuristic).
 const PATIENCE: usize = 6;
 /// Maximum fraction of the folds that may remain after [`PATIENCE`] rounds (heuristic).
 const MAX_REMAINING: f64 = 0.75;
@@ -127,7 +127,7 @@ pub(super) fn continue_transfer(
     FoldHistory::default().remove(mesh, MAX_ROUNDS, progress)
 }
 
-/// Progress of a fold removal.
+/// Record of a fold removal.
 #[derive(Default)]
 struct FoldHistory {
     /// For each round done: the smallest number of folds counted before that round or before any
@@ -212,7 +212,8 @@ fn harmonic(mesh: &PairMesh, to: &[DVec2], progress: &dyn Progress) -> Option<Ve
     let mut rhs = vec![DVec2::ZERO; inner];
     for (i, sum) in rhs.iter_mut().enumerate() {
         for u in mesh.neighbours((i + n) as u32) {
-            // Uniform weights keep the matrix positive definite, whatever the shapes of the faces.
+            // Equal weights of all neighbours keep the matrix positive definite, whatever the
+            // shapes of the faces.
             matrix.add(i as u32, i as u32, 1.0);
             match (u as usize).checked_sub(n) {
                 // Each edge is visited from both ends, but its entry is added only once.

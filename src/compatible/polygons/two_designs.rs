@@ -1,5 +1,5 @@
-//! Compatible triangulation of one piece in two designs: transfers in both directions, the base
-//! mesh if both fail, then improvement of the angles.
+//! Compatible triangulation of one piece in two designs: transfers the triangulation of each design
+//! to the other, builds the base mesh if both transfers fail, and then improves the angles.
 
 use super::boundary_rings;
 use super::boundary_rings::BoundaryRings;
@@ -149,14 +149,14 @@ fn best_transfer(
 ) -> Result<Option<PairMesh>, Cancelled> {
     let shares = ProgressShares::new(progress, 2);
     let shares = [shares.part(0), shares.part(1)];
-    // The outlines do not show which direction is better, so both are tried.
+    // The outlines do not show which direction of transfer is better, so both are tried.
     let directions = [(source, target), (target, source)].into_par_iter();
     let begun = directions
         .zip(&shares)
         .map(|((from, to), share)| Transfer::begin(from, to, options, share));
     let mut transfers: Vec<Option<Transfer>> = begun.collect::<Result<_, _>>()?;
-    // Both directions get a few rounds of fold removal. They get more only if neither is free of
-    // folds by then.
+    // The transfers in both directions get a few rounds of fold removal. They get more only if
+    // neither is free of folds by then.
     for rounds in [FIRST_ROUNDS, MAX_ROUNDS] {
         let pending = transfers.par_iter_mut().zip(&shares);
         pending.try_for_each(|(transfer, share)| match transfer {
@@ -229,8 +229,8 @@ fn coarse_base(
     target: &BoundaryRings,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PieceMeshError> {
-    // The front is coarsened to at most half the limit, if possible, because bridges to holes add
-    // corners again.
+    // The front is coarsened to at most `MAX_BASE_POINTS` / 2 points, if possible, because bridges
+    // to holes add corners again.
     checkpoint(progress, "simplifying", 0.0)?;
     let coarse = coarsen::coarsen(source, target, MAX_BASE_POINTS / 2, progress)?;
     let core = bridges::bridged_base(&coarse.front_rings(0), &coarse.front_rings(1), progress)?;

@@ -12,10 +12,10 @@ use crate::numerics::lbfgs::minimise;
 use crate::work::progress::Progress;
 
 /// Minimum of ε, in units of the area-weighted mean determinant (heuristic: a smaller ε allows
-/// thinner faces but needs shorter steps).
+/// thinner faces but needs shorter descent steps).
 const MIN_EPSILON: f64 = 1e-3;
-/// Maximum number of descent steps in a round, during which ε is fixed (heuristic: a new ε is
-/// better as soon as the worst face has moved).
+/// Maximum number of descent steps in a round of [`untangle`], during which ε is fixed (heuristic:
+/// a new ε is better as soon as the worst face has moved).
 const STEPS: usize = 30;
 
 /// Face with the quantities from which its energy is computed.
@@ -89,13 +89,14 @@ pub(super) fn untangle(mesh: &mut PairMesh, progress: &dyn Progress) -> bool {
     mesh.points[1] != start
 }
 
-/// Returns springs whose stiffness is, up to a factor, the second derivative of the energy where no
-/// face is distorted; `None` if their matrix is not positive definite, or on a cancel.
+/// Returns springs that precondition the minimisation of the energy. Their stiffness is, up to a
+/// factor, the second derivative of the energy where no face is distorted. `None` if their matrix
+/// is not positive definite, or on a cancel.
 fn springs(faces: &[UntangleFace], movable: &[u32], progress: &dyn Progress) -> Option<Springs> {
     let springs = faces.iter().flat_map(|face| {
         let weight = 2.0 * face.share;
-        // The energy |J|² of a face is a sum of squared edge lengths, weighted by the cotangents of
-        // the opposite corners.
+        // The energy |J|² of a face is a sum of its squared edge lengths, weighted by the
+        // cotangents of the opposite corners.
         let m = face.from_edges * face.from_edges.transpose();
         let (ab, ac, bc) = (
             m.x_axis.x + m.y_axis.x,

@@ -87,8 +87,9 @@ impl ChordTable {
             let parts = self.cells[self.cell(i, k)]
                 .0
                 .min(self.cells[self.cell(k, j)].0);
-            // This check comes before the slow exact predicates. The triangle cannot improve the
-            // smallest angle of the two parts of the polygon next to it.
+            // The smallest angle cannot exceed that of the two parts of the polygon next to the
+            // triangle. If it cannot exceed the best one so far, the slow exact predicates are
+            // skipped.
             if parts <= best.0 {
                 continue;
             }

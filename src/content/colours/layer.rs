@@ -131,16 +131,16 @@ impl<'a> PictureSampler<'a> {
     /// the plane.
     ///
     /// Positions are exact to `max_offset` · 2⁻³⁰ pixels if neighbouring samples are at most 2²⁸ /
-    /// `max_offset` pixels apart. Longer steps are shortened to that; they would skip from one
-    /// pixel to an unrelated one anyway.
+    /// `max_offset` pixels apart. Longer distances are shortened to that; neighbouring samples
+    /// would read unrelated pixels anyway.
     pub fn footprint(
         &self,
         plane: &AffinePlane,
         first: [usize; 2],
         max_offset: usize,
     ) -> PixelFootprint<'a> {
-        // The start is at most [`FAR`] away. `max_offset` steps to the right and as many down at
-        // most double that distance.
+        // The first sample is at most [`FAR`] away. The sample that is `max_offset` columns and as
+        // many rows after it is at most twice as far away.
         let max_step = 0.5 * FAR / max_offset.max(1) as f64;
         // The cast turns NaN into 0.
         let fixed = |at: DVec2, limit: f64| {
@@ -177,8 +177,8 @@ pub(super) struct PixelFootprint<'a> {
 }
 
 impl PixelFootprint<'_> {
-    /// Samples the picture for the samples of row `y` from column `x` on: bilinearly between pixel
-    /// centres, and mirrored beyond the edges.
+    /// Samples the picture at consecutive output pixels of row `y`, from column `x` on: bilinearly
+    /// between pixel centres, and mirrored beyond the edges.
     ///
     /// Replaces each element of `lights` by `with(element, sampled light)`.
     #[inline]
@@ -246,7 +246,7 @@ fn fractional_part(x: i64) -> f32 {
 }
 
 impl MipLevel {
-    /// Creates a level from its pixels and adds the padding.
+    /// Creates a level from its pixels and adds the padding of one row and one pixel.
     fn new(width: usize, height: usize, mut light: Vec<LinearLight>) -> Self {
         let padded_len = width * height + width + 1;
         // `resize` alone may reserve twice as much memory.

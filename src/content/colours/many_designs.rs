@@ -117,8 +117,8 @@ impl PictureSet {
                     footprint.sample_row([x, y], row, |_, light| share * light);
                 }
             };
-            // Each picture has its own buffer: both faces at an edge write the samples on it, and
-            // these must not be added twice.
+            // Each picture is sampled into a buffer of its own. A sample on an edge between two
+            // faces is written by both; if it were added to the sum directly, it would count twice.
             let mut picture_lights = vec![LinearLight::ZERO; lights.len()];
             scan(
                 &placement,

@@ -1,7 +1,7 @@
 //! Assigns each large unmatched part to the nearest pair of parts, so that it gets a partner.
 //!
-//! The pair becomes a group of two parts of one design and a single part of the other. The single
-//! part is then cut into one piece for each of the two.
+//! The pair becomes a group of several parts of one design and a single part of the other. The
+//! single part is then cut into one piece for each of the several parts.
 
 use super::super::PartRule;
 use super::super::pairing::relative_centres;
@@ -56,8 +56,9 @@ impl MatchPlan<'_> {
         large
     }
 
-    /// Assigns an unmatched part to the nearest pair. Returns false, and changes nothing, if there
-    /// is no such pair or if the pair's part in the other design cannot be cut.
+    /// Assigns an unmatched part to the nearest group whose single part in the other design may be
+    /// cut (see [`nearest_group`]). Returns false, and changes nothing, if there is no such group
+    /// or if no suitable cut is found.
     fn assign_to_nearest(
         &mut self,
         side: Side,

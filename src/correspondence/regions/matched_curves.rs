@@ -13,7 +13,8 @@ use crate::geometry::{DVec2, Side};
 pub(crate) struct MatchedCurves {
     curves: [BoundaryCurve; 2],
     matched: BoundaryMatch,
-    /// Maximum edge length of the shared polygons, as a fraction of the curves' mean length.
+    /// Maximum edge length of the two polygons that consist of the shared vertices, as a fraction
+    /// of the curves' mean length.
     spacing: f64,
     /// For each design: both ends of each slit (a straight cut from a hole to another boundary).
     /// The curve runs along each slit in both directions.

@@ -1,8 +1,5 @@
-//! Working state of the match of one part with another: the boundary loops of both, the holes cut
-//! open so far, and the pins on each ring.
-//!
-//! [`PartMatcher`] decides which holes are paired, which are cut open and which close. It also
-//! matches the resulting outer boundaries.
+//! Matches one part with another. [`PartMatcher`] decides which holes are paired, cut open or
+//! closed, and matches the resulting outer boundaries.
 
 use super::super::boundary::match_curves;
 use super::super::boundary_match::BoundaryMatch;
@@ -69,7 +66,8 @@ pub(super) struct PartPin {
     points: [DVec2; 2],
 }
 
-/// Working state of the match of two parts.
+/// Two parts that are being matched: their boundary loops with the slits cut so far, and their
+/// pins.
 pub(super) struct PartMatcher<'a> {
     /// Outer boundary loops of both parts, including the slits cut so far.
     pub(super) boundaries: [SlitBoundary; 2],

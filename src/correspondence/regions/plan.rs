@@ -275,7 +275,7 @@ impl<'a> MatchPlan<'a> {
     }
 
     /// Returns the match of an unmatched part with a point of the other design. The point is the
-    /// part's centre, displaced like the nearest part that is matched.
+    /// part's centre, displaced by the same vector as the centre of the nearest matched part.
     fn unmatched_piece(&self, side: Side, part: usize) -> PieceMatch {
         let here = self.parts[side].centres[part];
         let mut nearest = (f64::INFINITY, DVec2::ZERO);

@@ -30,8 +30,8 @@ const AREA_WEIGHT: f64 = 1.0;
 const POSITION_WEIGHT: f64 = 0.6;
 /// Weight of a cut's length in the ranking of cuts (heuristic).
 const LENGTH_WEIGHT: f64 = 0.35;
-/// Weight of a cut's value in the ranking, relative to the cost of matching its pieces, in the
-/// rating of the best cuts (heuristic).
+/// Weight of the ranking in the final rating of a cut: the rating is the cost of matching the
+/// pieces plus this weight times the value by which the cut was ranked (heuristic).
 const RANK_WEIGHT: f64 = 0.15;
 
 /// Maximum number of pieces that are cut off one after another, each by the best of several matched

@@ -43,8 +43,8 @@ fn kinds(piece: &PieceMatch) -> Vec<RingKind> {
 
 #[test]
 fn closing_holes_keep_apart_from_each_other() {
-    // In a grid of 5 × 5 holes, the centre of the plate suits the middle hole best. The first hole,
-    // which finds little space near its own place, already closes there.
+    // In a grid of 5 × 5 holes, the centre of the plate suits the middle hole best. However, the
+    // first hole already closes there, because it finds little space near its own place.
     let places = (0..25).map(|k| (f64::from(k % 5), f64::from(k / 5)));
     let holes = places.map(|(x, y)| block(2.0 * x + 0.5, 2.0 * y + 0.5, 1.0, 1.0));
     let rings: Vec<_> = [block(0.0, 0.0, 10.0, 10.0)]

@@ -118,7 +118,7 @@ fn hue_colour(number: u8) -> [u8; 3] {
     let brightness = BRIGHTNESS[usize::from(number % 10 / 2)];
     let min_share = if number.is_multiple_of(2) { 0.0 } else { 0.5 };
     // HSV to RGB on a hue circle of length 6: a channel has its maximum up to the distance 1 from
-    // `peak` and its minimum from the distance 2 on; in between it changes linearly.
+    // the hue `peak` and its minimum from the distance 2 on; in between it changes linearly.
     let channel = |peak: f64| {
         let distance = (hue - peak).rem_euclid(6.0);
         let share = (2.0 - distance.min(6.0 - distance)).clamp(0.0, 1.0);

@@ -41,7 +41,7 @@ pub(super) struct EllipseArc {
     pub sweep: f64,
 }
 
-/// Validated NURBS curve.
+/// NURBS curve whose degree, knots and weights have been checked by [`Self::new`].
 #[derive(Clone, Debug)]
 pub(super) struct NurbsCurve {
     degree: usize,

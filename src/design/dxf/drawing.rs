@@ -45,7 +45,8 @@ struct DxfBlock {
     entities: Vec<DxfEntity>,
 }
 
-/// Content read so far, before blocks are expanded.
+/// Layers, blocks and entities of the file that have been read so far. Block references are not yet
+/// expanded.
 #[derive(Default)]
 struct DxfReader {
     /// Names of layers that are frozen or off.
@@ -87,7 +88,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<DxfDrawing, DxfError> {
 }
 
 /// Reader of the records of a file. A record is a run of pairs (group code and value) that begins
-/// with group code 0. The reader is one pair ahead.
+/// with group code 0. The first pair of the next record has always been read already.
 struct RecordReader<'a> {
     pairs: PairReader<'a>,
     /// First pair of the next record; `None` at the end of the file.
@@ -196,14 +197,16 @@ impl DxfReader {
         match (entity, &mut self.open) {
             (Some(entity), Some((_, block))) => block.entities.push(entity),
             (Some(entity), None) => self.entities.push(entity),
-            // Layouts, styles and other records that are not entities have no layer.
+            // Records without a layer, such as layouts and styles, are not entities, so they are
+            // not counted as ignored.
             (None, _) if record.text(8).is_empty() => {}
             (None, _) => skip(&mut self.drawing.skipped, record.kind),
         }
         Ok(())
     }
 
-    /// Counts one entity; returns an error if there are more than [`MAX_OBJECTS`].
+    /// Counts one entity or polyline vertex; returns an error if there are more than
+    /// [`MAX_OBJECTS`].
     fn count(&mut self) -> Result<(), DxfError> {
         self.objects += 1;
         check_count(self.objects, MAX_OBJECTS)
@@ -240,12 +243,12 @@ fn skip(skipped: &mut BTreeMap<String, usize>, kind: &[u8]) {
     }
 }
 
-/// State of the recursive expansion of block references.
+/// Recursive expansion of block references: the blocks, and the drawing made so far.
 struct BlockExpansion<'b> {
     blocks: &'b HashMap<Vec<u8>, DxfBlock>,
     layers: &'b LayerColours,
-    /// Number of steps so far: one for each path and for each control point of a curve, and two for
-    /// each block copy.
+    /// Work done so far, counted in steps: one for each path and for each control point of a curve,
+    /// and two for each block copy.
     steps: usize,
     drawing: DxfDrawing,
 }
@@ -293,10 +296,10 @@ impl BlockExpansion<'_> {
         Ok(())
     }
 
-    /// Adds `steps` + 1 to the number of steps so far; returns an error if the sum exceeds the
-    /// limit.
+    /// Adds `steps` + 1 to [`Self::steps`], the work done so far; returns an error if the sum
+    /// exceeds twice [`MAX_OBJECTS`].
     fn count(&mut self, steps: usize) -> Result<(), DxfError> {
-        // Because of the additional step, the number of paths without curves is limited, too.
+        // The additional 1 also limits the number of paths without curves, for which `steps` is 0.
         self.steps += 1 + steps;
         check_count(self.steps, 2 * MAX_OBJECTS)
     }

@@ -50,22 +50,22 @@ pub(super) struct DxfRecord<'a> {
 }
 
 impl<'a> DxfRecord<'a> {
-    /// Returns the first pair with a group code.
+    /// Returns the first pair with the group code `code`.
     fn first(&self, code: i32) -> Option<&GroupPair<'a>> {
         self.pairs.iter().find(|pair| pair.code == code)
     }
 
-    /// Returns the first real number with a group code, or the default.
+    /// Returns the first real number with the group code `code`, or `default` if there is none.
     pub fn real(&self, code: i32, default: f64) -> Result<f64, DxfError> {
         self.first(code).map_or(Ok(default), GroupPair::real)
     }
 
-    /// Returns the first integer with a group code, or 0.
+    /// Returns the first integer with the group code `code`, or 0 if there is none.
     pub fn integer(&self, code: i32) -> Result<i64, DxfError> {
         self.first(code).map_or(Ok(0), GroupPair::integer)
     }
 
-    /// Returns the first text with a group code, or an empty text.
+    /// Returns the first text with the group code `code`, or an empty text if there is none.
     pub fn text(&self, code: i32) -> &'a [u8] {
         self.first(code).map_or(b"", GroupPair::text)
     }
@@ -93,7 +93,7 @@ impl<'a> DxfRecord<'a> {
         ))
     }
 
-    /// Returns all real numbers with a group code, in order.
+    /// Returns all real numbers with the group code `code`, in file order.
     fn reals(&self, code: i32) -> Result<Vec<f64>, DxfError> {
         let pairs = self.pairs.iter().filter(|pair| pair.code == code);
         pairs.map(GroupPair::real).collect()
@@ -120,7 +120,8 @@ impl<'a> DxfRecord<'a> {
     /// entity's own coordinate system.
     fn plane_map(&self, elevation: f64) -> Result<DAffine2, DxfError> {
         let normal = self.normal()?;
-        // The DXF Reference prescribes exactly this bound, 1/64.
+        // The arbitrary axis algorithm of the DXF Reference prescribes the bound 1/64 for the
+        // choice of the reference axis.
         let near_z = normal.x.abs() < 1.0 / 64.0 && normal.y.abs() < 1.0 / 64.0;
         let reference_axis = if near_z { DVec3::Y } else { DVec3::Z };
         let x_axis = reference_axis
@@ -226,7 +227,8 @@ impl<'a> DxfRecord<'a> {
     /// Converts an ELLIPSE.
     fn ellipse(&self) -> Result<EntityShape, DxfError> {
         let (centre, major) = (self.point(10)?, self.point(11)?);
-        // An ELLIPSE is given in world coordinates, unlike a CIRCLE, so it is only projected.
+        // An ELLIPSE is given in world coordinates, unlike a CIRCLE, so it needs no change of
+        // coordinates, only the projection onto the xy plane.
         let minor = self.real(40, 1.0)? * self.normal()?.cross(major);
         let (from, to) = (self.real(41, 0.0)?, self.real(42, TAU)?);
         let arc = EllipseArc {

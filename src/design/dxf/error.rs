@@ -5,9 +5,9 @@ use crate::design::note::OtherKinds;
 use crate::geometry::{DVec2, RegionsError};
 use std::fmt;
 
-/// Maximum number of entities in the file (resource limit: a few hundred bytes each). The expansion
-/// of blocks may take twice as many steps: one for each path and control point, two for each block
-/// copy.
+/// Maximum number of entities and polyline vertices in the file (resource limit: a few hundred
+/// bytes each). While blocks are expanded, one object is counted for each path and each control
+/// point, and two for each block copy; twice this maximum is then allowed.
 pub(super) const MAX_OBJECTS: usize = 1_000_000;
 
 /// Maximum nesting depth of blocks (resource limit: expansion recurses, and a block may contain

@@ -133,7 +133,7 @@ impl EndpointGraph {
         }
         let mut here = self.ends[start][0];
         let mut trail: Vec<TrailStep> = Vec::new();
-        // For each visited node, the index in `trail` of the step that leaves it.
+        // For each node on the trail, the index in `trail` of the curve that starts there.
         let mut steps_from: HashMap<usize, usize> = HashMap::from([(here, 0)]);
         let mut next = Some(start);
         while let Some(curve) = next {
@@ -169,9 +169,9 @@ impl EndpointGraph {
     }
 }
 
-/// Step of the traversal: one curve in one direction.
+/// Curve on the way through the graph, traversed forwards or backwards.
 struct TrailStep {
-    /// Node at which the step starts.
+    /// Node at which the traversal of the curve starts.
     from: usize,
     curve: usize,
     is_forward: bool,

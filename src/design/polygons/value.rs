@@ -1,8 +1,9 @@
 //! Reads points, rings and polygons from JSON values, and defines the errors of the polygon
 //! importer.
 //!
-//! An error is created without its position. Each enclosing value then prepends its step
-//! to the error's path (see [`PolygonsImportError::within`]).
+//! An error is created with an empty path. The reader of each enclosing object or list then puts
+//! the key or the index of the faulty value in front of that path (see
+//! [`PolygonsImportError::within`]).
 
 use crate::design::json_error::JsonError;
 use crate::design::note::OtherKinds;
@@ -73,7 +74,8 @@ impl From<PolygonsFault> for PolygonsImportError {
 }
 
 impl PolygonsImportError {
-    /// Prepends a step, such as `.geometry` or `[2]`, to the path of the error.
+    /// Prepends `step`, a key such as `.geometry` or an index such as `[2]`, to the path of the
+    /// error.
     pub(super) fn within(self, step: &str) -> Self {
         match self {
             Self::Value { path, fault } => Self::Value {

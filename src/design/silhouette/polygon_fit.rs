@@ -303,7 +303,8 @@ fn round_corners(corners: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
         let [to_before, to_after] = [before.normalize_or_zero(), after.normalize_or_zero()];
         let half = 0.5 * before.length().min(after.length());
         // A parabola replaces the corner. It starts and ends at the distance `reach` from the
-        // corner and passes the corner at the distance 0.25 · `cut` · `reach`.
+        // corner. It passes the corner at the distance 0.25 · `cut` · `reach`, where `cut` is the
+        // length of the sum of the unit vectors along the two chords.
         let cut = (to_before + to_after).length();
         let reach = if cut * half > 4.0 * corner.slack {
             4.0 * corner.slack / cut
@@ -315,8 +316,8 @@ fn round_corners(corners: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
             continue;
         }
         let [a, b] = [p + to_before * reach, p + to_after * reach];
-        // If the parabola is divided into n chords, they deviate from it by 1/n² of
-        // the distance between the corner and the parabola.
+        // A parabola that is divided into n chords (`pieces`) deviates from them by 1/n² of the
+        // distance between the corner and the parabola.
         let pieces = (0.25 * cut * reach / flatness.max(1e-9))
             .sqrt()
             .ceil()

@@ -75,7 +75,7 @@ pub(super) fn paint_tree(
     }
 }
 
-/// State of the traversal of a drawing.
+/// Converter of a drawing to shapes, with the shapes made so far.
 struct SvgPainter<'b> {
     /// Width and height of the page.
     page: DVec2,

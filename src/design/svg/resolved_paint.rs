@@ -64,8 +64,8 @@ pub(super) fn resolve_paint(paint: &usvg::Paint, opacity: Opacity) -> Option<Res
     })
 }
 
-/// Converts the colour stops, spread and transform of a gradient. `frame` is the affine map from
-/// the coordinates of `geometry` to those to which that transform applies.
+/// Converts the colour stops, spread and transform of a gradient. `frame` maps the coordinates of
+/// `geometry` to the gradient's own coordinates; the transform of the gradient is applied after it.
 fn convert_gradient(
     gradient: &BaseGradient,
     geometry: GradientGeometry,

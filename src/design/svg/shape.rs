@@ -11,7 +11,7 @@ pub(super) struct SvgShape {
     pub rings: WindingRings,
     /// Colour and opacity of the area.
     pub paint: Paint,
-    /// Gradient in page coordinates, y up; `paint` is then its mean.
+    /// Gradient of the area, if any, in page coordinates, y up; `paint` is then its mean.
     pub gradient: Option<Gradient>,
     /// Whether the area is that of a stroke.
     pub is_stroke: bool,

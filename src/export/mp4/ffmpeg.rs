@@ -96,7 +96,8 @@ pub(super) fn run(
     Ok(FfmpegOutcome {
         status,
         messages: match progress.is_cancelled() {
-            // A child process of ffmpeg may still hold its stderr open, so reading could block.
+            // After a cancellation, the messages are not needed. Waiting for them could block,
+            // because a child process of ffmpeg may still hold its stderr open.
             true => FfmpegMessages::default(),
             false => words.join().unwrap_or_default(),
         },

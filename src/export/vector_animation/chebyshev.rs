@@ -17,16 +17,17 @@ pub(super) fn chebyshev_nodes(n: usize) -> impl Iterator<Item = f64> {
     })
 }
 
-/// Returns the coefficients of the series that interpolate moving points. `at_nodes[k]` holds all
-/// points at the `k`-th of the [`chebyshev_nodes`]; element `j` of the result holds the
-/// coefficient of degree `j` for each point.
+/// Returns the Chebyshev series of the points as functions of s in [0, 1]. The series interpolate
+/// the given positions: `at_nodes[k]` holds all points at the `k`-th of the [`chebyshev_nodes`].
+/// Element `j` of the result holds, for each point, the coefficient of the Chebyshev polynomial
+/// T_j(2s − 1).
 pub(super) fn interpolate(at_nodes: &[&[DVec2]]) -> Vec<Vec<DVec2>> {
     let n = at_nodes.len() - 1;
     if n == 0 {
         return vec![at_nodes[0].to_vec()];
     }
-    // The first and the last node have half weight in each sum; the first and the last coefficient
-    // are halved.
+    // Each coefficient is a weighted sum of the positions at the nodes. The first and the last node
+    // have half the weight in it, and the first and the last coefficient are halved.
     let half = |k: usize| if k == 0 || k == n { 0.5 } else { 1.0 };
     let term = |j: usize| {
         let mut term = vec![DVec2::ZERO; at_nodes[0].len()];
@@ -43,8 +44,8 @@ pub(super) fn interpolate(at_nodes: &[&[DVec2]]) -> Vec<Vec<DVec2>> {
     (0..=n).map(term).collect()
 }
 
-/// Drops as many of the last terms of a series as possible without moving any point by more than
-/// `tolerance` in total.
+/// Drops as many of the last terms of the points' Chebyshev series as possible. All dropped terms
+/// together move no point by more than `tolerance`.
 pub(super) fn truncate_series(terms: &mut Vec<Vec<DVec2>>, tolerance: f64) {
     let mut dropped = vec![0.0; terms.first().map_or(0, Vec::len)];
     while terms.len() > 1 {
@@ -59,7 +60,8 @@ pub(super) fn truncate_series(terms: &mut Vec<Vec<DVec2>>, tolerance: f64) {
     }
 }
 
-/// Returns the points of a series at `s` in [0, 1], evaluated by the three-term recurrence.
+/// Returns the points at `s` in [0, 1] from their Chebyshev series. The Chebyshev polynomials are
+/// computed by their three-term recurrence.
 pub(super) fn evaluate(terms: &[Vec<DVec2>], s: f64) -> Vec<DVec2> {
     let x = 2.0 * s - 1.0;
     let mut sum = terms.first().cloned().unwrap_or_default();

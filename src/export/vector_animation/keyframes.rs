@@ -58,8 +58,8 @@ fn reach(
             slope[1] = slope[1].min((rise + tolerance) / run);
             slope[0] <= slope[1]
         });
-        // The failures are counted, because `all` would stop at the first one and would not update
-        // the remaining slopes.
+        // The empty ranges of slopes are counted, because `all` would stop at the first one and
+        // would not update the remaining ranges.
         let is_open = has_slopes.filter(|is_open| !is_open).count() == 0;
         if can_be_key || to == from + 1 {
             visit(to);

@@ -26,10 +26,9 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     let timeline = &animation.timeline;
     let frames = timeline.frames();
     let (width, height) = (animation.size.width(), animation.size.height());
-    // If a remapped time equals the number of frames of the film, players treat it as the end and
-    // show an earlier moment instead. The largest remapped time is the length of the
-    // precomposition. For a film of one frame, this length would equal the number of frames, so the
-    // precomposition of such a film is one frame longer.
+    // The largest remapped time is the length of the precomposition. If it equals the number of
+    // frames of the film, players take it for the end and show an earlier moment. The
+    // precomposition is then made one frame longer; this happens only for a film of one frame.
     let length = if timeline.pass_frames == frames {
         frames + 1
     } else {

@@ -25,7 +25,8 @@ use super::shape::{PathVerb, ShapeForm};
 use super::simplify::simplify;
 
 /// Step to which the coefficients of moving shapes are rounded, in pixels (tolerance: rounding 16
-/// terms by up to half a step displaces a point by less than a twentieth of a pixel on average).
+/// coefficients by up to half a step displaces a point by less than a twentieth of a pixel on
+/// average).
 const STEP_PX: f64 = 1.0 / 24.0;
 
 /// Steps to which the points of a shape are rounded if it does not move within its animation piece,
@@ -69,8 +70,8 @@ pub(super) fn html_page(animation: &VectorAnimation, title: &str) -> String {
     parts.collect()
 }
 
-/// Packs a film as text: a line of JSON followed by the bytes of the series, compressed with
-/// deflate (RFC 1951) and encoded in base64.
+/// Packs a film as text: a line of JSON, followed by the Chebyshev coefficients of all shapes in
+/// binary form. Both are compressed with deflate (RFC 1951) and encoded in base64.
 fn pack(animation: &VectorAnimation, title: &str, still_px: f64) -> String {
     let mut series = Vec::new();
     let mut bytes = film(animation, title, still_px, &mut series)
@@ -87,8 +88,8 @@ fn pack(animation: &VectorAnimation, title: &str, still_px: f64) -> String {
     }
 }
 
-/// Returns the JSON description of the film. The series of all shapes are not part of it; they are
-/// appended to `bytes`.
+/// Returns the JSON description of the film. The Chebyshev coefficients of all shapes are not part
+/// of it; they are appended to `bytes`.
 fn film(animation: &VectorAnimation, title: &str, still_px: f64, bytes: &mut Vec<u8>) -> Value {
     let mut forms = FormTable::default();
     let pieces: Vec<Value> = (animation.pieces.iter())
@@ -121,8 +122,8 @@ struct FormTable {
 }
 
 impl FormTable {
-    /// Returns the index in the table of a shape's constant data, and adds the data if they are
-    /// new.
+    /// Returns the index of a shape's constant data in the table. Adds the data if they are not in
+    /// the table yet.
     fn number(&mut self, shape: &MovingShape) -> usize {
         let form = form_json(&shape.first.form, shape.first.points.len());
         *self.numbers.entry(form.to_string()).or_insert_with(|| {
@@ -192,7 +193,8 @@ fn looks(shape: &MovingShape) -> Vec<Vec<Value>> {
     shape.appearances.iter().map(look).collect()
 }
 
-/// Appends the series of a shape to `bytes`, and returns the number of terms of the series.
+/// Appends the Chebyshev coefficients of a shape's points to `bytes`, and returns the number of
+/// coefficients of each point.
 fn push_terms(shape: &MovingShape, still_px: f64, bytes: &mut Vec<u8>) -> usize {
     let mut terms = shape.terms.clone();
     truncate_series(&mut terms, TRUNCATION_PX);

@@ -25,7 +25,8 @@ pub(super) struct AnimationPiece {
 pub(super) struct MovingShape {
     /// The shape at the beginning of the interval.
     pub first: PosedShape,
-    /// Chebyshev coefficients: element j holds the coefficient of degree j for each point.
+    /// Chebyshev series of the points in the fraction s of the interval: element j holds, for each
+    /// point, the coefficient of T_j(2s − 1).
     pub terms: Vec<Vec<DVec2>>,
     /// Appearances (colour, width and gradient numbers) at evenly spaced t from the beginning to
     /// the end of the interval. There is only one if the appearance is constant.

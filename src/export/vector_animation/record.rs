@@ -93,7 +93,7 @@ pub(super) fn record(
     Ok(pieces)
 }
 
-/// State of a recording in progress.
+/// Camera whose drawings are recorded, and the animation pieces recorded so far.
 struct AnimationRecorder<'a> {
     camera: &'a Camera,
     frame: SequenceFrame,
@@ -283,8 +283,8 @@ fn have_same_shapes(a: &ShapeSnapshot, b: &ShapeSnapshot) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.has_form_of(b))
 }
 
-/// Fits Chebyshev series through every second of the `moments`. Returns `None` if the other moments
-/// deviate too much, unless `must_fit`.
+/// Fits the Chebyshev series of all points through every second one of the `moments`. Returns
+/// `None` if the series deviate too much from the other moments, unless `must_fit`.
 fn fit_series(moments: &[ShapeSnapshot], must_fit: bool) -> Option<Vec<MovingShape>> {
     let fit = |k: usize| {
         let points = |m: usize| moments[m][k].points.as_slice();

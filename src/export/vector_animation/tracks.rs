@@ -46,9 +46,9 @@ pub(super) struct KeyedProperty<T> {
 }
 
 impl SceneLayer {
-    /// Returns a property of a shape as keyframes. Linear interpolation between these reproduces
-    /// the `numbers` of every sample within `tolerance`. `take` returns the value of the property
-    /// at a keyframe.
+    /// Returns a property of a shape as keyframes. `numbers` returns the numbers of the property in
+    /// a sample; linear interpolation between the keyframes reproduces them within `tolerance` in
+    /// every sample. `take` returns the value of the property at a keyframe.
     pub(super) fn keyed<T>(
         &self,
         poses: &[PosedShape],
@@ -73,7 +73,7 @@ impl SceneLayer {
         }
     }
 
-    /// Returns the keyframes of some of a shape's points.
+    /// Returns the keyframes of those points of a shape whose indices are in `range`.
     pub(super) fn points<T>(
         &self,
         poses: &[PosedShape],

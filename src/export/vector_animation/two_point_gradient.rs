@@ -30,8 +30,9 @@ impl TwoPointGradient {
         let [x, y] = [frame.matrix2.x_axis, frame.matrix2.y_axis];
         match gradient.geometry {
             GradientGeometry::Linear => {
-                // Lines of equal colour run along the mapped y axis. The gradient vector is the
-                // component of the mapped x axis perpendicular to these lines.
+                // Lines of equal colour run along the y axis of the gradient as transformed to the
+                // image. The vector from start to end is the component of the transformed x axis
+                // perpendicular to these lines.
                 let across = DVec2::new(y.y, -y.x);
                 let length = across.length_squared();
                 let vector = if length > 0.0 {

@@ -14,7 +14,8 @@ use crate::work::progress::{Cancelled, Progress};
 /// overlap is named as the cause (heuristic).
 const LITTLE_OVERLAP: f64 = 0.5;
 
-/// Creates a defect from two counts: the largest at any t, and the larger of those at t = 0 and 1.
+/// Function that creates the kind of a finding from two counts: the largest at any t, and the
+/// larger of those at t = 0 and t = 1.
 type FieldFinding = fn(usize, usize) -> FindingKind;
 
 /// Finds when the contour of a blend of distance fields disappears or has extra pieces or holes.

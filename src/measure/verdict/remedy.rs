@@ -140,8 +140,8 @@ fn scan_with(
 }
 
 /// Adopts a change as the remedy of a finding of folds or crossings, on two conditions: it leaves
-/// fewer defects of the finding's kind than the best change so far, and no more defects of the
-/// other kind than the film has without the change.
+/// fewer defects of the finding's kind than the film has with the best change so far (or without
+/// any change), and no more defects of the other kind than the film has without the change.
 fn adopt_if_better(
     finding: &mut Finding,
     change: &SettingChange,

@@ -128,8 +128,9 @@ impl TriangulationDomain {
             return Err(TriangulationError::NotOnePiece);
         }
         // `corners` fails unless the two loop edges at every loop corner bound one sector of the
-        // piece, and each sector belongs to one loop corner. If it succeeds, every corner of every
-        // face in the piece has its loop corner, because each sector begins at a loop edge.
+        // piece (the faces around the corner between these edges), and each sector belongs to one
+        // loop corner. If it succeeds, every corner of every face in the piece has its loop corner,
+        // because each sector begins at a loop edge.
         self.corners(&winding)
             .ok_or(TriangulationError::NotSimple)?;
         // The leftmost point belongs to the outer boundary, so it must be a corner of the first
@@ -186,8 +187,8 @@ impl TriangulationDomain {
 
     /// Returns for each face the indices of the loop corners at its three vertices. The index is
     /// [`NONE`] at a vertex that refinement added, and for all faces outside the piece. Returns
-    /// `None` unless the two loop edges at every loop corner bound one sector of the piece, and
-    /// each sector belongs to one loop corner.
+    /// `None` unless the two loop edges at every loop corner bound one sector of the piece (the
+    /// faces around the corner between these edges), and each sector belongs to one loop corner.
     fn corners(&self, winding: &[i32]) -> Option<Vec<[u32; 3]>> {
         let mut corners = vec![[NONE; 3]; winding.len()];
         for (corner, points) in (0..).zip(&self.merged) {

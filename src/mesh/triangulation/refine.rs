@@ -72,8 +72,8 @@ impl TriangulationDomain {
             && let Some(((_, Reverse(vertices)), centre)) = bad.pop_last()
         {
             check_cancelled(progress)?;
-            // A face that cannot be improved leaves the queue for good, because only faces at new
-            // vertices enter the queue.
+            // A face that cannot be improved does not return to the queue of bad faces, because
+            // only faces at new vertices enter this queue.
             let Some(vertex) = insert(&mut self.delaunay, vertices, centre) else {
                 continue;
             };

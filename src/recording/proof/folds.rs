@@ -8,8 +8,8 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Maximum number of times that an interval is halved to decide a case (tolerance: the last part is
-/// 2⁻³⁰ of the interval, about 1e-9).
+/// Maximum number of times that an interval is halved to prove that a face does not fold or that a
+/// vertex stays off an edge (tolerance: the last part is 2⁻³⁰ of the interval, about 1e-9).
 pub(super) const MAX_HALVINGS: u32 = 30;
 
 /// Returns the earliest time in the interval at which a face is not proved to be positively
@@ -47,8 +47,9 @@ pub(super) fn first_fold(
     Ok(first)
 }
 
-/// Earliest time at which any thread has failed to prove a property, as the fraction s of the
-/// interval. No thread needs to examine later times.
+/// Earliest time at which any thread has failed to prove that a face does not fold, or that a
+/// vertex stays off an edge, as the fraction s of the interval. No thread needs to examine later
+/// times.
 pub(super) struct EarliestFailure(AtomicU64);
 
 impl Default for EarliestFailure {

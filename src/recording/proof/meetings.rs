@@ -90,8 +90,8 @@ pub(super) fn first_meeting(
             false => std::mem::take(&mut remaining),
         };
         let ends = [at_ends[0] && from == 0.0, at_ends[1] && to == 1.0];
-        // Crossings of loops at the beginning of a section are tested directly, except at t = 0,
-        // where the two sides of a cut lie on each other.
+        // Crossings of loops at the beginning of a section of the interval are tested directly,
+        // except at t = 0, where the two sides of a cut lie on each other.
         let crossed = (!ends[0]).then(|| search.first_crossing(&piece, loops, from));
         let next = match crossed.flatten() {
             Some(first) => IntervalMeetings {
@@ -114,7 +114,7 @@ pub(super) fn first_meeting(
     Ok(found)
 }
 
-/// State of the search for meetings in one interval.
+/// Search for meetings in one interval, with the edges and vertices of the loops.
 struct MeetingSearch<'a> {
     products: BernsteinProducts,
     edges: Vec<LoopEdge>,
@@ -239,9 +239,9 @@ impl<'a> MeetingSearch<'a> {
         })
     }
 
-    /// Finds all pairs of edges of the same layer whose boxes overlap, by a sweep along x. For
-    /// each, returns both ends of one edge paired with the other edge, and the reverse. Returns
-    /// `None` if there are more than about `max_pairs` vertex–edge pairs.
+    /// Finds all pairs of edges of the same layer whose boxes overlap, by a sweep along x. For each
+    /// of them, pairs both ends of each edge with the other edge. Returns `None` if there are more
+    /// than about `max_pairs` vertex–edge pairs.
     fn near_pairs(&self, curves: &[VertexCurve], max_pairs: usize) -> Option<Vec<VertexEdgePair>> {
         let boxes: Vec<[DVec2; 2]> = curves.par_iter().map(VertexCurve::bounds).collect();
         let edge_box = |edge: &LoopEdge| {

@@ -1,11 +1,12 @@
 //! Compliance of a mesh: displacement of all vertices when one vertex is pushed.
 //!
-//! Let K be the matrix of the motion's own energy. With K alone, a pushed vertex would become a
-//! spike, because the response of the plane to a point load is a logarithm. The matrix (K + μM) M⁻¹
-//! (K + μM) is used instead, where M is the diagonal matrix of the vertex masses. Its response is a
-//! smooth dent, whose width depends on μ, and a connected part can also be pushed away as a whole.
-//! A part that exists in only one design is only pushed as a whole, because it is small and must
-//! not change its shape.
+//! The displacements solve a linear system whose right-hand side is the push. If its matrix were K,
+//! the matrix of the motion's own energy, the pushed vertex would become a spike, because the
+//! response of the plane to a point load is a logarithm. The matrix is therefore (K + μM) M⁻¹ (K +
+//! μM), where M is the diagonal matrix of the vertex masses. The response is then a smooth dent,
+//! whose width depends on μ, and a connected part can also be pushed away as a whole. A part that
+//! exists in only one design is only pushed as a whole, because it is small and must not change its
+//! shape.
 
 use crate::numerics::{Cholesky, CholeskyWorkspace, FactorError};
 use crate::warp::Arap;
@@ -15,7 +16,8 @@ use std::collections::BTreeMap;
 /// wide as the design (heuristic).
 const LOCAL: f64 = 30.0;
 
-/// Compliance of a mesh, computed vertex by vertex on request.
+/// Displacements of all vertices of a mesh when one vertex is pushed. They are computed separately
+/// for each vertex that is pushed.
 pub(super) struct MeshCompliance {
     cholesky: Cholesky,
     workspace: CholeskyWorkspace,
@@ -24,7 +26,8 @@ pub(super) struct MeshCompliance {
     parts: Vec<u32>,
     /// For each connected part, whether it exists in only one design.
     living: Vec<bool>,
-    /// For each vertex that was requested, the displacement of all vertices when it is pushed.
+    /// For each vertex that has been pushed, the displacements of all vertices, as multiples of the
+    /// push.
     columns: BTreeMap<u32, Vec<f64>>,
 }
 
@@ -47,7 +50,8 @@ impl MeshCompliance {
         })
     }
 
-    /// Computes the displacement of all vertices when `vertex` is pushed, unless it is known.
+    /// Computes the displacements of all vertices when `vertex` is pushed, unless they have been
+    /// computed already.
     pub(super) fn learn(&mut self, vertex: u32) {
         if self.columns.contains_key(&vertex) {
             return;

@@ -1,5 +1,6 @@
-//! The boundary loops that are drawn where the mesh has them, with their layers and visible
-//! intervals of t.
+//! Pieces of a match, and the boundary loops of the mesh that are drawn for them. Each loop has a
+//! layer and an interval of t in which it is visible. Pieces that swell have no such loops, because
+//! their drawn outlines differ from the mesh boundary.
 
 use crate::recording::proof::DrawnLoop;
 use crate::transition::transients::layers::PieceLayers;

@@ -14,8 +14,9 @@ const APART: f64 = 1e-3;
 /// rounding, far below the clearance).
 const TOUCHES: f64 = 1e-7;
 
-/// Length of t over which the required clearance of a vertex and an edge that touch when they
-/// appear rises from 0 to the full value; likewise before they disappear (heuristic).
+/// Length of t over which the required clearance between a vertex and an edge rises from 0 to its
+/// full value, if the two touch at the time from which both are drawn. The clearance falls to 0 in
+/// the same way if they touch at the time until which both are drawn (heuristic).
 const OPENS: f64 = 0.05;
 
 /// A vertex and an edge that must not meet: indices in the `points` and `edges` of
@@ -96,8 +97,8 @@ impl GuardedOutlines {
         self.edges[pair.1].ends
     }
 
-    /// Returns the first and the last time at which vertex and edge are both drawn. The first is
-    /// later than the last if they are never drawn together.
+    /// Returns the first and the last time at which the vertex and the edge of a pair are both
+    /// drawn. The first is later than the last if they are never drawn together.
     fn drawn(&self, pair: GuardedPair) -> [f64; 2] {
         let [a, b] = [self.points[pair.0].1, self.edges[pair.1].walk];
         let [a, b] = [&self.walks[a], &self.walks[b]];
@@ -120,9 +121,10 @@ impl GuardedOutlines {
             && !edge.ends.contains(&vertex)
     }
 
-    /// Returns the required clearance of a pair at `t`: the general clearance, but at most a
-    /// quarter of the distance between vertex and edge when the pair appears or disappears. If the
-    /// two touch at that time, the clearance grows from 0.
+    /// Returns the required clearance at `t` between the vertex and the edge of a pair. It is
+    /// [`Self::apart`], but at most a quarter of their distance at the first and at the last time
+    /// at which both are drawn. If they touch at one of these times, the clearance is 0 there and
+    /// changes gradually.
     pub(super) fn gap(&self, pair: GuardedPair, t: f64) -> f64 {
         let [from, to] = self.drawn(pair);
         let apart = self.apart();

@@ -18,15 +18,15 @@ pub(super) struct ContactConstraint {
     pub least: f64,
 }
 
-/// Maximum number of active contacts at one time (resource limit; more of them mean that whole
-/// shapes collide).
+/// Maximum number of active constraints, that is, those that some displacement so far has violated
+/// (resource limit; more of them mean that whole shapes collide).
 const MOST: usize = 600;
 
-/// Maximum number of sweeps over all contacts (resource limit).
+/// Maximum number of Gauss–Seidel sweeps over all active constraints (resource limit).
 const SWEEPS: u32 = 400;
 
-/// Maximum number of times that contacts violated by the current displacement are added (resource
-/// limit).
+/// Maximum number of times that the constraints violated by the displacements so far become active
+/// and the displacements are computed again (resource limit).
 const ADDED: u32 = 12;
 
 /// Returns the smallest displacement of each vertex that satisfies the constraints `rows` within
@@ -75,8 +75,8 @@ pub(super) fn smallest(
     Some(moved)
 }
 
-/// Returns the matrix C G Cᵀ, row by row, where the rows of C are the constraints `rows` and G is
-/// the compliance of the mesh.
+/// Returns the matrix A = C G Cᵀ of the dual problem, row by row. The rows of C are the constraints
+/// `rows`, and G is the compliance of the mesh.
 fn products(rows: &[&ContactConstraint], yielding: &MeshCompliance) -> Vec<f64> {
     let n = rows.len();
     let mut a = vec![0.0; n * n];
@@ -99,13 +99,13 @@ fn products(rows: &[&ContactConstraint], yielding: &MeshCompliance) -> Vec<f64> 
 fn multipliers(rows: &[&ContactConstraint], a: &[f64], tolerance: f64) -> Vec<f64> {
     let n = rows.len();
     let mut lambda = vec![0.0; n];
-    // Left-hand sides of the constraints for the current multipliers.
+    // Left-hand side of each constraint for the displacements that the current multipliers cause.
     let mut reached = vec![0.0; n];
     for _ in 0..SWEEPS {
         let mut off: f64 = 0.0;
         for i in 0..n {
             let own = a[i * n + i];
-            // The mesh does not yield to this contact, so no multiplier can satisfy it.
+            // A push at this contact moves no vertex, so no multiplier can satisfy the constraint.
             if own <= 0.0 {
                 continue;
             }

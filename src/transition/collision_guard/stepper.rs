@@ -14,21 +14,21 @@ use crate::warp::{Arap, Placer, Warp};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::BTreeMap;
 
-/// Maximum number of corrections of a step (resource limit). Corrections are needed because the
-/// constraints on face areas are linearised, and because a vertex that slides around a corner
-/// rotates its separating line.
+/// Maximum number of times that the displacements at one time t are computed (resource limit). They
+/// are computed again because the constraints on face areas are linearised, and because the
+/// separating line of a vertex that slides around a corner rotates.
 const CORRECTIONS: u32 = 6;
 
 /// Accuracy of the displacements, as a fraction of the clearance between outlines (tolerance:
 /// invisible).
 const EXACT: f64 = 0.01;
 
-/// Minimum area of a face, as a fraction of the smaller of its areas in the two designs
-/// (heuristic).
+/// Area below which the displacements must not shrink a face, as a fraction of the smaller of its
+/// areas in the two designs (heuristic).
 const FACE: f64 = 0.125;
 
-/// Largest displacement, as a fraction of the mesh diameter; beyond it the attempt is abandoned
-/// (heuristic).
+/// Largest permitted displacement of a vertex, as a fraction of the mesh diameter. If it is
+/// exceeded, [`through`] returns `None` (heuristic).
 const FARTHEST: f64 = 0.25;
 
 /// Times from 0 to 1, each with the displacements of all vertices.
@@ -77,8 +77,8 @@ pub(super) fn through(
     Ok(Some(moved.chain([(*last, still)]).collect()))
 }
 
-/// State after one step: `plain` are the original positions, `moved` the displacements, and
-/// `places` the displaced positions, in which all close pairs are apart.
+/// Positions of all vertices at one time: `plain` in the original motion, and `places` after
+/// displacement by `moved`. In `places`, vertices and edges that are close to each other are apart.
 struct GuardMoment {
     t: f64,
     plain: Vec<DVec2>,
@@ -150,8 +150,8 @@ impl GuardStepper<'_> {
         })
     }
 
-    /// Returns the normal of the separating line of a pair: the direction from the edge to the
-    /// vertex before the step, rotated as the edge rotates during the step.
+    /// Returns the normal of the line that separates a vertex from an edge: the direction from the
+    /// edge to the vertex before the step, rotated as the edge rotates during the step.
     fn line(&self, pair: GuardedPair, before: &GuardMoment, plain: &[DVec2]) -> DVec2 {
         let towards = self.outlines.towards(pair, &before.places);
         let along = |places: &[DVec2]| {
@@ -160,8 +160,8 @@ impl GuardStepper<'_> {
         };
         let (was, is) = (along(&before.plain), along(plain));
         if towards.length() <= self.outlines.touches() {
-            // The two sides of a cut touch, so their distance has no direction. The outward normal
-            // of the edge is used.
+            // The vertex touches the edge, like the two sides of a closed cut, so the vector
+            // between them has no direction. The outward normal of the edge is used.
             return -is.perp();
         }
         let turn = DVec2::new(was.dot(is), was.perp_dot(is));
@@ -215,7 +215,8 @@ impl GuardStepper<'_> {
         rows
     }
 
-    /// Adds a constraint on the area of each face that is close to folding.
+    /// Adds to `rows` a constraint for each face that is close to folding: its area must not become
+    /// too small.
     fn faces(
         &self,
         plain: &[DVec2],

@@ -49,8 +49,8 @@ fn is_proved(film: &Arap, drawn: &DrawnPieces) -> bool {
     trouble.expect("a film that settles").is_none()
 }
 
-/// Two squares pass each other: one moves to the right, the other to the left at the height
-/// `above`.
+/// Builds the motion of two squares that pass each other: one moves to the right, the other to the
+/// left at the height `above`.
 fn passing(above: f64) -> Arap {
     let x = DVec2::new(5.0, 0.0);
     let up = DVec2::new(0.0, above);

@@ -46,7 +46,8 @@ pub(super) fn shifted(film: &Arap, trouble: &FirstDefect) -> WindowShift {
         Some((piece, next))
     };
     let long = |life: &TimeWindow| life.to - life.from;
-    // If the time windows of both parts can be shortened, the one that stays longer is shortened.
+    // If the time windows of both parts can be shortened, only one is: the one that then remains
+    // longer.
     let longer =
         |a: &(usize, TimeWindow), b: &(usize, TimeWindow)| long(&a.1).total_cmp(&long(&b.1));
     match both.iter().filter_map(shifted).max_by(longer) {

@@ -32,8 +32,8 @@ use crate::correspondence::{HolePolicy, HoleRule, MatchOptions, MatchSettings};
 use crate::transition::error::BuildError;
 use crate::work::progress::{Progress, ProgressSpan};
 
-/// Match cost above which shapes count as dissimilar, so that other costs are tried (heuristic: two
-/// poses of one shape cost up to 0.3, dissimilar shapes 0.4 and more).
+/// Match cost above which shapes count as dissimilar, so that the attempt [`OTHER_COSTS`] is made
+/// (heuristic: two poses of one shape cost up to 0.3, dissimilar shapes 0.4 and more).
 const SIMILAR_COST: f64 = 0.34;
 
 /// Weights of the cost of stretching that are tried for dissimilar shapes, in addition to the
@@ -71,7 +71,7 @@ const REQUESTED_DRAFT_PROGRESS: f64 = 0.7;
 /// Progress reported once all attempts are made, in [0, 1] (heuristic).
 const ATTEMPTS_PROGRESS: f64 = 0.7;
 
-/// An attempt to find better matches for some pieces of a group.
+/// An attempt to find better matches for some pieces of a group of parts.
 struct Attempt {
     /// Result of the search that the attempt improves.
     branch: SearchBranch,
@@ -249,7 +249,7 @@ const UNPAIR_HOLES: Attempt = Attempt {
     progress: [0.5, 0.6],
 };
 
-/// Returns the best match of each piece of a group. `drafts` holds the result of
+/// Returns the best match of each piece of a group of parts. `drafts` holds the result of
 /// [`drafts_of_group`], if it has been computed already.
 ///
 /// # Errors
@@ -285,8 +285,8 @@ pub(in crate::transition) fn best_of_group(
     slide_and_choose(paired, unpaired, group.spec, &sliding)
 }
 
-/// Returns the draft match of each piece: the requested match or, for pieces that would turn far, a
-/// match that keeps them upright, if that is better.
+/// Returns the draft match of each piece of a group of parts: the requested match or, for pieces
+/// that would turn far, a match that keeps them upright, if that is better.
 ///
 /// # Errors
 /// If the group cannot be matched, a motion cannot be solved, or the work is cancelled.

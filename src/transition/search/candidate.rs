@@ -104,8 +104,8 @@ impl MatchCandidate {
         let mesh = mesh_of_piece(&matched, &options.triangulation, &meshing)
             .map_err(CandidateError::Mesh)?;
         let defects = if matched.is_matched() {
-            // The piece is rated on its own, with the default weights and the default anchor,
-            // because the requested weights and anchor refer to the whole design. The bounded
+            // Apart from `symmetric` and the homotopy, the piece is rated with default options,
+            // because requested ones such as the anchor refer to the whole design. The bounded
             // homotopy is too expensive for a rating and is replaced by the polar one, which starts
             // and ends with the same shapes.
             let homotopy = match options.arap.homotopy {

@@ -1,5 +1,5 @@
-//! Matches the pieces of a group of parts with several variants of the match options and selects
-//! the best match of each piece.
+//! Matches the pieces of a group, that is, of parts that are matched together, with several
+//! variants of the match options, and selects the best match of each piece.
 
 use super::candidate::{CandidateError, MatchCandidate};
 use crate::compatible::PieceMeshError;
@@ -16,7 +16,8 @@ const MATCH_PROGRESS: f64 = 0.2;
 /// The result for a piece: its best match, or a match that cannot be triangulated and the reason.
 pub(in crate::transition) type PieceResult = Result<MatchCandidate, (PieceMatch, PieceMeshError)>;
 
-/// Options with which the pieces of a group are matched.
+/// Match options and treatment of unmatched holes with which the pieces of a group of parts are
+/// matched.
 pub(in crate::transition) struct MatchVariant {
     pub(in crate::transition) options: MatchOptions,
     /// Treatment of unmatched holes.
@@ -31,7 +32,8 @@ pub(in crate::transition) fn piece_of_result(chosen: &PieceResult) -> &PieceMatc
     }
 }
 
-/// A group of parts that is being matched.
+/// A group of parts whose pieces are being matched: one part with one, one with several, or a
+/// single unmatched part.
 pub(in crate::transition) struct GroupSearch<'a> {
     pub(in crate::transition) plan: &'a MatchPlan<'a>,
     /// Index of the group in `plan`.

@@ -76,8 +76,8 @@ pub(in crate::transition) fn timed_by(
         let lives = scene.lives((&holes, &order), levels, timetable.clone(), progress)?;
         let crossed = lives.iter().map(|(_, _, crossed)| crossed).sum();
         let late = lives.iter().position(|&(_, _, crossed)| crossed > 0);
-        // In the next round, the first hole with a crossing keeps its time window and comes first.
-        // If it came first already, nothing can improve.
+        // In the next pass over all holes, the first hole with a crossing keeps its time window and
+        // comes first. If it came first already, nothing can improve.
         let late = late.filter(|&late| late > 0);
         if let Some(late) = late {
             order[late].1 = Some(lives[late].1);
@@ -138,7 +138,8 @@ fn untimed(pieces: &[PieceMatch], mesh: &CompatibleMesh) -> Vec<PieceHole> {
     holes
 }
 
-/// Positions and outlines at the sample times between t = 0 and t = 1.
+/// The motion at the sample times between t = 0 and t = 1, with the outlines that holes must not
+/// cross.
 struct HoleScene {
     times: Vec<f64>,
     /// Positions of all vertices at each time.
@@ -197,7 +198,8 @@ impl HoleScene {
         Ok(lives)
     }
 
-    /// Returns the collision cost of each time window in [`eighths`] for a hole.
+    /// Returns a cost for each time window in [`eighths`]: [`CROSSING`] if the hole crosses
+    /// something in that time window, otherwise 0.
     fn prices(&self, hole: &TransientHole, level: usize) -> Vec<f64> {
         let price = |life: TimeWindow| {
             let mut hole = hole.clone();
@@ -208,8 +210,9 @@ impl HoleScene {
         lives.into_par_iter().map(price).collect()
     }
 
-    /// Returns the first time window with the fewest crossings, and the number of crossings. If
-    /// `known` is given, only that time window is considered.
+    /// Returns the time window in `times` in which the hole crosses something at the fewest sample
+    /// times, and their number. Of several such time windows, the first is chosen. If `known` is
+    /// given, only that time window is considered.
     fn life(
         &self,
         hole: &TransientHole,

@@ -35,9 +35,9 @@ const WAIT: f64 = 0.05;
 /// order (heuristic).
 const ORDERLY: f64 = 0.05;
 
-/// Lengths, in units of t, of two extra time windows for a part that collides in all time windows
-/// between multiples of 1/8 (heuristic). The part visibly jumps, which is less bad than a
-/// collision.
+/// Lengths, in units of t, of two extra time windows for a part that collides in every time window
+/// that starts and ends at multiples of 1/8 (heuristic). The part visibly jumps, which is less bad
+/// than a collision.
 const JUMPS: [f64; 2] = [1.0 / 16.0, 1.0 / 32.0];
 /// Additional cost of the time windows in [`JUMPS`]: once for the first, twice for the second
 /// (heuristic).
@@ -85,8 +85,8 @@ pub(in crate::transition) fn eighths(side: Side) -> impl Iterator<Item = TimeWin
 #[derive(Clone)]
 struct ScheduledTransient {
     growth: GrowthProfile,
-    /// For a hole, at each step: the area of the unshrunken hole as a multiple of its area in its
-    /// design. `None` for a part, which is not stretched.
+    /// For a hole, at each t = k / [`STEPS`]: the area of the hole at full size, stretched by the
+    /// motion, as a multiple of its area in its design. `None` for a part, which is not stretched.
     stretch: Option<Vec<f64>>,
     /// Centre of the part or hole in its design.
     place: DVec2,
@@ -112,7 +112,8 @@ impl ScheduledTransient {
         }
     }
 
-    /// Adds the turning and the area of the part, multiplied by `times`, to the sums at each step.
+    /// Adds the turning and the area of the part or hole, multiplied by `times`, to `sums`, which
+    /// has an entry for each sampled t.
     fn add(&self, sums: &mut [[f64; 2]], times: f64) {
         let last = sums.len().saturating_sub(1) as f64;
         for (k, sum) in sums.iter_mut().enumerate() {
@@ -132,8 +133,8 @@ impl ScheduledTransient {
 #[derive(Clone)]
 pub(in crate::transition) struct TransientSchedule {
     coming: Vec<ScheduledTransient>,
-    /// At each step, the turning and the area of everything that is drawn; empty if the time
-    /// windows are not optimised.
+    /// The turning and the area of everything that is drawn, at each t = k / [`STEPS`]; empty if
+    /// the time windows are not optimised.
     sums: Vec<[f64; 2]>,
 }
 
@@ -164,8 +165,9 @@ impl TransientSchedule {
     ) -> Self {
         let (holes, parts): (Vec<_>, Vec<_>) = (holes.collect(), parts.collect());
         let of_parts = parts.iter().map(|(_, _, rings)| rings.len());
-        // The turning counts each outline as at least one turn. An absent outline counts as a
-        // point, so that the count does not change.
+        // A growth profile omits the full turn of each outline. The full turns of all transient
+        // outlines are added here, even for times at which an outline is absent, so that the sum
+        // does not jump when it appears.
         let points = TAU * (holes.len() + of_parts.sum::<usize>()) as f64;
         let diameter = film.mesh().diameter();
         let walks = SharedPartLoops::of(film);
@@ -260,7 +262,7 @@ impl TransientSchedule {
         self.coming[k].add(&mut self.sums, 1.0);
     }
 
-    /// Returns the turning and area at each step of everything except one part or hole.
+    /// Returns the turning and the area of everything except one part or hole, at each sampled t.
     fn without(&self, k: usize) -> Vec<[f64; 2]> {
         let mut sums = self.sums.clone();
         self.coming[k].add(&mut sums, -1.0);
@@ -277,8 +279,9 @@ impl TransientSchedule {
     }
 }
 
-/// Returns the cost of one part or hole: its own price plus the overshoot of turning and area of
-/// everything. `others` are the sums without this part or hole.
+/// Returns the cost of a schedule, up to a constant: the price of one part or hole, plus the
+/// overshoot of turning and area of everything that is drawn. `others` holds turning and area
+/// without this part or hole, at each sampled t.
 fn cost(coming: &ScheduledTransient, others: &[[f64; 2]]) -> f64 {
     let mut sums = others.to_vec();
     coming.add(&mut sums, 1.0);
@@ -291,8 +294,8 @@ fn wait(life: TimeWindow) -> f64 {
     1.0 - (life.to - life.from)
 }
 
-/// Returns how much turning and area exceed what the two designs require, as the sum of two
-/// fractions.
+/// Returns the overshoot of the turning plus that of the area, each relative to the values at t = 0
+/// and t = 1. `sums` holds turning and area at each sampled t.
 fn unrest(sums: &[[f64; 2]]) -> f64 {
     if sums.is_empty() {
         return 0.0;

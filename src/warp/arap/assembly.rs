@@ -27,7 +27,8 @@ pub(super) struct FaceMap {
     pub map: PolarDecomposition,
     /// Gradients, in the source, of the hat functions of the second and third vertex (columns).
     pub gradients: DMat2,
-    /// Product of the face's weight matrix W_T (see the module) and `gradients`.
+    /// The gradients in the source multiplied by the face's weight matrix W_T. The face's
+    /// contribution to the right-hand sides is computed from them.
     pub weighted: DMat2,
     /// Gradients, in the target, of the hat functions of the second and third vertex (columns).
     pub target_gradients: DMat2,
@@ -51,7 +52,7 @@ impl FaceMap {
         }
     }
 
-    /// Returns the face's 3×3 contribution to K.
+    /// Returns the 3×3 contribution of the face to the stiffness matrix K of the energy.
     ///
     /// The contributions of source and target are computed separately and added. For extremely thin
     /// faces, the sum stays positive. If it were computed from the weight matrix W_T, rounding
@@ -82,8 +83,8 @@ pub(super) struct ElementMap {
     pub stiffness: f64,
 }
 
-/// All quantities of the energy that do not depend on t: local maps, elements, masses and
-/// stiffness.
+/// All quantities of the energy that do not depend on t: the local maps of faces, bars and boundary
+/// edges, the vertex masses and the stiffness factors of the faces.
 #[derive(Clone, Debug)]
 pub(super) struct LocalMaps {
     pub faces: Vec<FaceMap>,
@@ -187,8 +188,8 @@ impl LocalMaps {
         self
     }
 
-    /// Returns K with one vertex of each connected component grounded: the vertex's diagonal entry
-    /// is increased, which makes K regular.
+    /// Returns the stiffness matrix K of the energy with one vertex of each connected component
+    /// grounded: the vertex's diagonal entry is increased, which makes K regular.
     ///
     /// The right-hand sides sum to zero over each component, so the solution is zero at the
     /// grounded vertex. Grounding another vertex would only translate the component.
@@ -209,8 +210,8 @@ impl LocalMaps {
         matrix
     }
 
-    /// Returns K before a vertex of each component is grounded. This matrix is singular, because
-    /// translating a component does not change the energy.
+    /// Returns the stiffness matrix K of the energy before a vertex of each component is grounded.
+    /// This matrix is singular, because translating a component does not change the energy.
     pub(super) fn free_matrix(
         &self,
         mesh: &CompatibleMesh,
@@ -221,12 +222,13 @@ impl LocalMaps {
         matrix
     }
 
-    /// Returns the sum of the contributions of all faces and elements to K, and the diagonal of
-    /// this sum.
+    /// Returns the stiffness matrix K of the energy, summed over faces, bars and boundary edges,
+    /// and the diagonal of K.
     fn energy(&self, mesh: &CompatibleMesh) -> (SymmetricMatrix, Vec<f64>) {
         let n = mesh.source().len();
-        // Each face adds six entries and each element three. The capacity has a fourth entry per
-        // element, as room for the diagonal entries that [`Self::matrix`] increases.
+        // Each face adds six entries, and each bar or boundary edge three. The capacity has a
+        // fourth entry per bar or boundary edge, as room for the diagonal entries that
+        // [`Self::matrix`] increases.
         let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
         let mut diagonal = vec![0.0; n];
         for (face, map) in mesh.faces().iter().zip(&self.faces) {
@@ -308,7 +310,7 @@ fn element_map(
     }
 }
 
-/// Areas of faces and elements in source and target; a bar counts as length²/2.
+/// Areas of faces and bars in source and target. The area of a bar is length²/2.
 struct MeshAreas {
     faces: [Vec<f64>; 2],
     elements: [Vec<f64>; 2],
@@ -345,7 +347,8 @@ impl MeshAreas {
         sides.map(|(&p, &q)| 0.5 * (p / a + q / b)).collect()
     }
 
-    /// Returns the mass of each vertex, with faces and elements lumped to their corners.
+    /// Returns the mass of each vertex. The area of a face is divided equally among its corners,
+    /// that of a bar between its ends.
     fn vertex_masses(&self, mesh: &CompatibleMesh) -> Vec<f64> {
         let (a, b) = (self.total(0), self.total(1));
         let mut masses = vec![0.0; mesh.source().len()];

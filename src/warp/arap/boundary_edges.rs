@@ -33,8 +33,8 @@ const STIFFNESS: f64 = 0.12;
 const MAX_STIFFNESS: f64 = 1e4;
 
 impl LocalMaps {
-    /// Appends the boundary edges to the elements, if `constraints` is `On` and the homotopy of
-    /// `options` is not the one with bounded distortion.
+    /// Appends the boundary edges to `elements`, which so far holds the bars, if `constraints` is
+    /// `On` and the homotopy of `options` is not the one with bounded distortion.
     pub(super) fn with_boundary_edges(
         mut self,
         mesh: &CompatibleMesh,
@@ -50,7 +50,7 @@ impl LocalMaps {
     }
 }
 
-/// Returns the elements of all boundary edges except those of transient parts.
+/// Returns the energy terms of all boundary edges except those of transient parts.
 fn edges(
     mesh: &CompatibleMesh,
     faces: &[FaceMap],
@@ -75,7 +75,7 @@ fn edges(
     edges
 }
 
-/// Returns the element of one boundary edge of a face. `diameters` holds the diameters of the
+/// Returns the energy term of one boundary edge of a face. `diameters` holds the diameters of the
 /// face's part in source and target.
 fn edge(
     mesh: &CompatibleMesh,
@@ -150,7 +150,7 @@ mod tests {
         CompatibleMesh::new(faces.collect(), source, target, vec![]).expect("a mesh")
     }
 
-    /// Builds the interpolation with boundary edges.
+    /// Builds the interpolation of outlines, whose energy has a term for each boundary edge.
     fn with_edges(mesh: &CompatibleMesh, subdivisions: u32) -> Arap {
         let options = ArapOptions {
             subdivisions,

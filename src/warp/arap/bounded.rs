@@ -75,7 +75,7 @@ pub(super) struct Beyond {
     face: usize,
 }
 
-/// Working memory for the local maps at one t; `sheets` has one entry per sheet.
+/// Memory for the local maps at one t, reused at the next; `sheets` has one entry per sheet.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     sheets: Vec<OfSheet>,
@@ -130,8 +130,8 @@ impl Bounded {
         }
     }
 
-    /// Adds the force M(t) W g of each face to its corners. M(t) is the face's local map, W its
-    /// weight matrix, and g are the gradients of its hat functions.
+    /// Adds the contribution M(t) W g of each face to the right-hand sides at its corners. M(t) is
+    /// the face's local map, W its weight matrix, and g are the gradients of its hat functions.
     pub(super) fn add(&self, times: EvaluationTimes, memory: &mut Memory, forces: &mut [DVec2]) {
         for (whole, memory) in self.sheets.iter().zip(&mut memory.sheets) {
             let t = times.of_vertex(whole.faces[0].corners[0] as usize);

@@ -16,11 +16,12 @@ use crate::numerics::Cholesky;
 use crate::warp::homotopy::Homotopy;
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
-/// Number of times that positions and then lengths are optimised (heuristic).
+/// Number of times that first the vertex positions and then the lengths of the boundary edges are
+/// optimised (heuristic).
 const ROUNDS: u32 = 5;
 
-/// Fits the lengths of all boundary edges at t = ½. In the list of elements, the boundary edges
-/// come after the bars of the mesh.
+/// Fits the lengths of all boundary edges at t = ½. The list of elements holds the bars of the mesh
+/// first and then the boundary edges.
 pub(super) fn fit_halfway_lengths(
     stresses: &mut ForceAssembly,
     mesh: &CompatibleMesh,
@@ -55,8 +56,8 @@ pub(super) fn fit_halfway_lengths(
             let element = &stresses.elements()[edge];
             let even = element.even_vector(homotopy, HALFWAY);
             let [from, to] = element.ends.map(position);
-            // The optimal length is that of the current edge vector, projected onto the element's
-            // direction.
+            // The optimal length is that of the current edge vector, projected onto the direction
+            // that the edge should have.
             let ratio = (to - from).dot(even) / even.length_squared();
             // The ratio is NaN for an edge that vanishes halfway, whose length does not matter.
             let ratio = if ratio.is_nan() { 1.0 } else { ratio };

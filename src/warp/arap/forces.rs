@@ -1,5 +1,6 @@
-//! Vectorised right-hand sides at one t: Σ (M(t) − M_linear(t)) W g, in the notation of the parent
-//! module.
+//! Vectorised right-hand sides at one t. The linear system for the deviations of the vertices has
+//! the right-hand sides Σ (M(t) − M_linear(t)) W g, in the notation of the parent module. The
+//! sum Σ M(t) W g at a vertex is called the force on the vertex.
 //!
 //! M_linear(t) = (1−t) M(0) + t M(1). The sum Σ M_linear(t) W g at a vertex is therefore
 //! interpolated between Σ M(0) W g and Σ M(1) W g, which are precomputed. These two sums are
@@ -34,7 +35,7 @@ const LENGTH_RATIOS: RangeInclusive<f64> = 0.1..=2.0;
 /// One number per face of a block; zero beyond the last face.
 type FaceLanes = [f64; LANES];
 
-/// Precomputed data of the right-hand sides.
+/// Precomputed data of the right-hand sides of the linear system.
 #[derive(Clone, Debug)]
 pub(super) struct ForceAssembly {
     homotopy: Homotopy,
@@ -45,11 +46,11 @@ pub(super) struct ForceAssembly {
     /// stretch; empty unless the homotopy is exponential.
     logs: Vec<[FaceLanes; 2]>,
     elements: Vec<ElementMap>,
-    /// Length of each element at t = ½, relative to its linearly interpolated length.
+    /// Length of each bar or boundary edge at t = ½, relative to its linearly interpolated length.
     halfway_lengths: Vec<f64>,
     /// Computation of the local maps with bounded distortion, if the homotopy requires it.
     bounded: Option<Arc<Bounded>>,
-    /// For each vertex, its force Σ M(t) W g (in the notation of the module) at t = 0 and t = 1.
+    /// For each vertex, the sum Σ M(t) W g (in the notation of the module) at t = 0 and t = 1.
     ends: Vec<[DVec2; 2]>,
 }
 
@@ -59,7 +60,8 @@ struct FaceBlock {
     /// Rotation angle of each face, in radians.
     angle: FaceLanes,
     /// For each face, the hat-function gradients of the second and third corner, multiplied by the
-    /// face's weight matrix; column by column.
+    /// face's weight matrix; column by column. Multiplied by M(t), they give the face's share of
+    /// the right-hand sides.
     weighted: [FaceLanes; 4],
     /// For each face, the matrix B from which [`MapCoefficients`] builds M(t), column by column. B
     /// is the projection onto the larger axis of the stretch for the exponential homotopy, and the
@@ -133,8 +135,8 @@ impl MapCoefficients {
 }
 
 impl ForceAssembly {
-    /// Precomputes the blocks of faces and, for each vertex, the force Σ M(t) W g at t = 0 and
-    /// t = 1, in the notation of the module.
+    /// Precomputes the blocks of faces and, for each vertex, the sum Σ M(t) W g at t = 0 and t = 1,
+    /// in the notation of the module.
     pub(super) fn new(mesh: &CompatibleMesh, maps: &LocalMaps, homotopy: Homotopy) -> Self {
         let blocks = maps.faces.chunks(LANES);
         let logs = if homotopy == Homotopy::Exponential {
@@ -157,8 +159,8 @@ impl ForceAssembly {
             ends: Vec::new(),
         };
         let mut memory = stresses.memory();
-        // The forces at t = 0 and t = 1 are computed with the same operations as for any other t,
-        // so that the right-hand sides are exactly zero at these two times.
+        // The sums Σ M(t) W g at t = 0 and t = 1 are computed with the same operations as for any
+        // other t, so that the right-hand sides are exactly zero at these two times.
         let [begin, end] = [0.0, 1.0].map(|t| {
             let mut forces = vec![DVec2::ZERO; mesh.source().len()];
             stresses.forces(EvaluationTimes::Uniform(t), &mut memory, &mut forces);
@@ -168,13 +170,13 @@ impl ForceAssembly {
         stresses
     }
 
-    /// Returns the elements: bars, then boundary edges.
+    /// Returns the elements: the bars, then the boundary edges.
     pub(super) fn elements(&self) -> &[ElementMap] {
         &self.elements
     }
 
-    /// Sets the length of an element at t = ½, relative to its linearly interpolated length. The
-    /// ratio is clamped to [`LENGTH_RATIOS`].
+    /// Sets the length of a bar or boundary edge at t = ½, relative to its linearly interpolated
+    /// length. The ratio is clamped to [`LENGTH_RATIOS`].
     pub(super) fn set_halfway_length(&mut self, element: usize, ratio: f64) {
         self.halfway_lengths[element] = ratio.clamp(*LENGTH_RATIOS.start(), *LENGTH_RATIOS.end());
     }
@@ -191,8 +193,8 @@ impl ForceAssembly {
         self.bounded.as_deref()
     }
 
-    /// Writes both right-hand sides to `rhs`: first all x, then all y, with the entry of vertex v
-    /// at index `place[v]`.
+    /// Writes the right-hand sides for x and for y to `rhs`: first all x, then all y, with the
+    /// entry of vertex v at index `place[v]`.
     ///
     /// `forces` is working memory with one entry per vertex.
     pub(super) fn right_hand_sides(
@@ -214,9 +216,9 @@ impl ForceAssembly {
         }
     }
 
-    /// Computes the force Σ M(t) W g of each vertex, in the notation of the module.
+    /// Computes the sum Σ M(t) W g of each vertex, in the notation of the module.
     ///
-    /// For the linear homotopy all forces are set to zero, because they would cancel in the
+    /// For the linear homotopy all sums are set to zero, because they would cancel in the
     /// right-hand sides at every t.
     fn forces(&self, times: EvaluationTimes, memory: &mut Memory, forces: &mut [DVec2]) {
         forces.fill(DVec2::ZERO);
@@ -224,7 +226,7 @@ impl ForceAssembly {
             Some(bounded) => bounded.add(times, memory, forces),
             None => self.arch.dispatch(FacePass(self, times, &mut *forces)),
         }
-        // There are few elements compared to faces, so this loop is not vectorised.
+        // There are few bars and boundary edges compared to faces, so this loop is not vectorised.
         if self.homotopy != Homotopy::Linear {
             for (element, &halfway) in self.elements.iter().zip(&self.halfway_lengths) {
                 let t = times.of_vertex(element.ends[0] as usize);
@@ -233,11 +235,11 @@ impl ForceAssembly {
         }
     }
 
-    /// Adds the forces of all faces.
+    /// Adds the term M(t) W g of each face to the sums `forces` at its corners.
     ///
-    /// `time` returns the times of the faces in a block. `extra` yields the additional data of each
-    /// block. `pose(t, angle, extra, lane)` returns the coefficients of M(t) for face `lane` of a
-    /// block.
+    /// `time` returns the times of the faces in a block. `extra` yields the data of each block that
+    /// only the chosen homotopy needs. `pose(t, angle, extra, lane)` returns the coefficients of
+    /// M(t) for face `lane` of a block.
     #[inline(always)]
     fn add<Extra>(
         &self,
@@ -254,7 +256,8 @@ impl ForceAssembly {
         }
     }
 
-    /// Adds the forces of all faces for the chosen homotopy.
+    /// Adds the term M(t) W g of each face to the sums `forces`, with the formula of the chosen
+    /// homotopy.
     #[inline(always)]
     fn pass(&self, forces: &mut [DVec2], time: impl Fn(&[[u32; 3]]) -> FaceLanes) {
         let none = std::iter::repeat(());
@@ -319,8 +322,8 @@ impl FaceBlock {
         }
     }
 
-    /// Returns, for each face, the products of M(t) and the weighted gradients of the second and
-    /// third corner, column by column.
+    /// Returns, for each face, M(t) times the weighted gradients of the second and third corner,
+    /// column by column. These are the face's terms of the sum Σ M(t) W g at the two corners.
     #[inline(always)]
     fn mapped(&self, pose: impl Fn(usize) -> MapCoefficients) -> [FaceLanes; 4] {
         let mut mapped = [[0.0; LANES]; 4];
@@ -339,8 +342,8 @@ impl FaceBlock {
     }
 }
 
-/// For each face of a block, adds its forces to the second and third corner, and minus their sum to
-/// the first corner.
+/// For each face of a block, adds its terms of the sum Σ M(t) W g at the second and third corner,
+/// and minus their sum at the first corner.
 #[inline(always)]
 fn scatter([x2, y2, x3, y3]: &[FaceLanes; 4], faces: &[[u32; 3]], forces: &mut [DVec2]) {
     for (lane, face) in (0..LANES).zip(faces) {
@@ -365,8 +368,8 @@ fn rows<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) ->
 }
 
 impl ElementMap {
-    /// Returns the vector e(t) of the element as given by the homotopy, without the length
-    /// correction of `edge_lengths`.
+    /// Returns the vector e(t) that the bar or boundary edge should have at t according to the
+    /// homotopy, without the length correction of `edge_lengths`.
     pub(super) fn even_vector(&self, homotopy: Homotopy, t: f64) -> DVec2 {
         let map = PolarDecomposition {
             angle: self.angle,
@@ -375,8 +378,8 @@ impl ElementMap {
         homotopy.at(&map, t) * self.vector
     }
 
-    /// Adds the element's forces at t. `halfway` is its length at t = ½, relative to the linearly
-    /// interpolated length.
+    /// Adds the terms of the bar or boundary edge at t to the sums `forces`. `halfway` is its
+    /// length at t = ½, relative to the linearly interpolated length.
     fn add(&self, homotopy: Homotopy, t: f64, halfway: f64, forces: &mut [DVec2]) {
         // The length correction is a parabola in t that vanishes at t = 0 and t = 1.
         let ratio = 1.0 + (halfway - 1.0) * (4.0 * t * (1.0 - t));

@@ -27,7 +27,7 @@ pub(super) struct FactoredArap {
     pub cholesky: Arc<Cholesky>,
     /// Ridge (a small increase of the diagonal) that the factorisation needed, or `None`.
     pub ridge: Option<Ridge>,
-    /// Precomputed data for the right-hand sides.
+    /// Precomputed data for the right-hand sides of the linear system.
     pub forces: ForceAssembly,
     pub translations: PartTranslations,
     pub maps: LocalMaps,
@@ -46,8 +46,8 @@ pub(super) struct FrameSolver {
     deviation: Vec<f64>,
     workspace: CholeskyWorkspace,
     memory: Memory,
-    /// Working memory for a correction of `deviation`, in the same layout; empty unless the
-    /// homotopy has bounded distortion.
+    /// Memory for a change of `deviation` that reduces the distortion of faces, in the same layout;
+    /// empty unless the homotopy has bounded distortion.
     correction: Vec<f64>,
     /// Translation of each connected part, recomputed for each t.
     shifts: Vec<DVec2>,
@@ -88,7 +88,8 @@ impl FrameSolver {
         } = placement;
         // The linear homotopy has zero deviation and needs no solve.
         if arap.options.homotopy != Homotopy::Linear {
-            // `in_frame` serves as memory for the forces before it receives the positions.
+            // `in_frame` serves as memory for computing the right-hand sides before it receives the
+            // positions.
             arap.forces
                 .right_hand_sides(times, place, memory, in_frame, deviation);
             arap.cholesky.solve_ordered(deviation, workspace);

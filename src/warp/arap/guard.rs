@@ -1,4 +1,5 @@
-//! Displacements of vertices that are added to a motion so that its outlines do not collide.
+//! A guard: displacements of vertices that are added to a motion so that its outlines do not
+//! collide.
 //!
 //! Displacements are given at several times and are zero at the first and the last of these. In
 //! between, they follow cubic curves with the velocities of Catmull and Rom, so that the motion has
@@ -14,12 +15,12 @@ use std::ops::Range;
 /// Displacements of vertices at several times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Guard {
-    /// Times in increasing order, within [0, 1].
+    /// Times at which the displacements are given, in increasing order, within [0, 1].
     times: Vec<f64>,
     /// Indices, in increasing order, of the vertices that are displaced at one or more of the
     /// times.
     vertices: Vec<u32>,
-    /// For each time, the displacement of each of these vertices. In single precision, as in the
+    /// For each time, the displacement of each vertex in `vertices`. In single precision, as in the
     /// saved document, so that the proof covers the saved values.
     moved: Vec<Vec<Vec2>>,
 }

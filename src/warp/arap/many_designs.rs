@@ -1,8 +1,8 @@
 //! As-rigid-as-possible interpolation of many designs.
 //!
-//! For each face, let A_j be the linear map from a reference to design j, and C the mean of these
-//! maps. In A_j C⁻¹ = R(θ_j) S_j, the sums of θ_j and of log S_j over all designs are zero. A blend
-//! with weights w, which sum to 1, has the local maps
+//! For each face, let A_j be the linear map from the first design, the reference, to design j, and
+//! C the mean of these maps. In A_j C⁻¹ = R(θ_j) S_j, the sums of θ_j and of log S_j over all
+//! designs are zero. A blend with weights w, which sum to 1, has the local maps
 //!
 //! A(w) = R(Σ w_j θ_j) exp(Σ w_j log S_j) C.
 //!
@@ -74,15 +74,16 @@ struct ArapBlendData {
     /// notation of the module.
     ways: Vec<[f64; 4]>,
     bars: Vec<BlendBar>,
-    /// For each vertex, one entry per design: the force of the adjacent faces and bars in that
-    /// design.
+    /// For each vertex, one entry per design: the sum of the terms A_j W g of the adjacent faces,
+    /// in the notation of the module, and of the terms of the adjacent bars.
     ends: Vec<DVec2>,
     parts: BlendParts,
     mender: Mender,
 }
 
 /// The matrix C W g of a face: the mean map C, the weight matrix W and, as columns of g, the
-/// gradients of the hat functions of the second and third corner.
+/// gradients of the hat functions of the second and third corner. The rotation and the stretch of a
+/// blend times this matrix are the face's terms of the right-hand sides.
 #[derive(Clone, Copy, Debug)]
 struct BlendFace(DMat2);
 
@@ -91,7 +92,7 @@ struct BlendFace(DMat2);
 struct BlendBar {
     ends: BarElement,
     stiffness: f64,
-    /// For each design, the direction in radians and the logarithm of the length.
+    /// For each design, the direction of the bar in radians and the logarithm of its length.
     ways: Vec<[f64; 2]>,
 }
 
@@ -184,9 +185,11 @@ impl ArapBlend {
 pub struct BlendPlacer {
     blend: Arc<ArapBlendData>,
     places: Vec<DVec2>,
-    /// Force on each vertex.
+    /// For each vertex, the sum of the terms A(w) W g of the adjacent faces, in the notation of the
+    /// module, and of the terms of the adjacent bars.
     pulls: Vec<DVec2>,
-    /// Right-hand sides, then deviations: all x, all y, in elimination order.
+    /// Holds the right-hand sides before the solve and the deviations of the vertices after it: all
+    /// x, all y, in elimination order.
     deviation: Vec<f64>,
     workspace: CholeskyWorkspace,
     /// Translation that is added to the deviations of each connected part.
@@ -257,9 +260,9 @@ impl BlendPlacer {
 }
 
 impl ArapBlendData {
-    /// Adds the force of each face and bar to its vertices, for the blend with the given weights.
-    /// The force of a face is A(w) W g, in the notation of the module, with the gradients g of its
-    /// hat functions.
+    /// Adds the terms of each face and bar to the sums `pulls` at its vertices, for the blend with
+    /// the given weights. The term of a face is A(w) W g, in the notation of the module, with the
+    /// gradients g of its hat functions.
     fn add_pulls(&self, weights: &[f64], pulls: &mut [DVec2]) {
         let ways = self.ways.chunks_exact(weights.len());
         for ((face, ways), BlendFace(carried)) in
@@ -288,8 +291,9 @@ impl ArapBlendData {
         }
     }
 
-    /// Returns the forces on the vertices in each design. They are computed by the same operations
-    /// as those of a blend, so that both are exactly equal if the blend is a design.
+    /// Returns, for each design, the sums that `add_pulls` computes at the vertices. They are
+    /// computed by the same operations as those of a blend, so that the two are exactly equal if
+    /// the blend is the design.
     fn pulls_of_designs(&self) -> Vec<DVec2> {
         let (count, vertices) = (self.family.count(), self.parts.of_vertex.len());
         let mut ends = vec![DVec2::ZERO; count * vertices];
@@ -326,7 +330,8 @@ fn exponential(xx: f64, xy: f64, yy: f64) -> DMat2 {
 /// Returns the mean C of the linear maps A_j given by `maps`. For each A_j, also returns the
 /// rotation angle and the entries xx, xy and yy of the logarithm of the stretch of A_j C⁻¹.
 fn mean_of(maps: &[PolarDecomposition]) -> (DMat2, Vec<[f64; 4]>) {
-    /// Maximum number of iterations (resource limit: valid maps converge in about ten).
+    /// Maximum number of iterations in the computation of C (resource limit: valid maps converge in
+    /// about ten).
     const ROUNDS: usize = 100;
     /// Convergence threshold for the means of the angles and of the log stretches, which are zero
     /// for the exact C (tolerance: rounding).
@@ -357,8 +362,8 @@ fn mean_of(maps: &[PolarDecomposition]) -> (DMat2, Vec<[f64; 4]>) {
     (mean, own)
 }
 
-/// Returns the weight matrix W of a face: the mean, over the designs j, of the face's area times
-/// (A_jᵀ A_j)⁻¹, where A_j is `maps[j]`.
+/// Returns the weight matrix W of a face in the energy: the mean, over the designs j, of the face's
+/// area times (A_jᵀ A_j)⁻¹, where A_j is `maps[j]`.
 fn weight(family: &CompatibleFamily, face: usize, maps: &[PolarDecomposition]) -> DMat2 {
     let corners = family.faces()[face];
     let mut sum = DMat2::ZERO;
@@ -424,8 +429,8 @@ impl Assembly {
     }
 
     /// Makes the matrix regular by increasing the diagonal entry of one vertex of each connected
-    /// part. This does not change the blend, because the forces on a part sum to zero and the
-    /// part's translation is computed separately.
+    /// part. This does not change the blend, because the right-hand sides sum to zero over each
+    /// part and the part's translation is computed separately.
     fn grounded(mut self, family: &CompatibleFamily) -> SymmetricMatrix {
         let components = family.pair(0, 0).components();
         let mut grounded = vec![false; self.diagonal.len()];

@@ -53,7 +53,8 @@ struct PartRun {
 }
 
 impl PartRun {
-    /// Returns the runs of a list in which entry i is the part of item i.
+    /// Returns the runs (maximal ranges of consecutive items that belong to one part) of a list in
+    /// which entry i is the part of item i.
     fn all(part_of: &[u32]) -> Vec<Self> {
         let mut end = 0;
         let runs = part_of.chunk_by(|a, b| a == b).map(|run| {
@@ -178,7 +179,8 @@ impl PartTranslations {
     }
 
     /// Writes to `shifts`, for each part, the translation that must be added to the deviations of
-    /// its vertices.
+    /// its vertices so that the part's centroid follows its path. With an anchor, all parts are
+    /// also shifted by one common vector, so that the anchor moves straight.
     ///
     /// `deviation` holds all x and then all y in elimination order.
     pub(super) fn shifts(&self, times: EvaluationTimes, deviation: &[f64], shifts: &mut [DVec2]) {
@@ -192,7 +194,7 @@ impl PartTranslations {
         for (part, shift) in shifts.iter_mut().enumerate() {
             let t = times.of_part(part);
             match self.time_window(part) {
-                // The formula below would leave rounding errors at t = 0 and t = 1.
+                // The formula of the next case would leave rounding errors at t = 0 and t = 1.
                 Some(_) if t == 0.0 || t == 1.0 => *shift = DVec2::ZERO,
                 Some(window) => {
                     let ([from, to], share) = (self.centres[part], window.fraction_done(t));

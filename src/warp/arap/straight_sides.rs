@@ -11,8 +11,8 @@ use crate::numerics::SymmetricMatrix;
 use crate::warp::homotopy::Homotopy;
 
 /// Factor of the energy term that keeps a vertex on its straight side, relative to the vertex's
-/// diagonal entry of K (tolerance: large enough to dominate, small enough for an accurate
-/// factorisation).
+/// diagonal entry of the stiffness matrix K (tolerance: large enough to dominate, small enough for
+/// an accurate factorisation).
 const STIFFNESS: f64 = 1e4;
 
 /// Maximum sine of the turning angle at a vertex inside a straight side. Also the maximum
@@ -22,7 +22,7 @@ const STRAIGHT: f64 = 1e-6;
 
 /// Whether a mesh has the constraints of drawn outlines.
 ///
-/// With `On`, straight sides stay straight and boundary edges are elements of the energy. With
+/// With `On`, straight sides stay straight and the energy has a term for each boundary edge. With
 /// `Off`, the mesh is interpolated as given and only its weights determine its stiffness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum OutlineConstraints {
@@ -53,7 +53,8 @@ impl OutlineConstraints {
         }
     }
 
-    /// Adds the constraints to `matrix`, if they are enabled. `diagonal` is the diagonal of K.
+    /// Adds the constraints to `matrix`, if they are enabled. `diagonal` is the diagonal of the
+    /// stiffness matrix K of the energy.
     pub(super) fn add_to_matrix(
         self,
         mesh: &CompatibleMesh,

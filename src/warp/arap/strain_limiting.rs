@@ -1,5 +1,5 @@
-//! Corrects, at each t, the faces that exceed the distortion bound: the largest distortion of a
-//! face of the same sheet from source to target.
+//! Strain limiting: at each t, corrects the faces that exceed the distortion bound: the largest
+//! distortion of a face of the same sheet from source to target.
 //!
 //! If many faces exceed the bound, all are corrected at once, each by the change that its own local
 //! map needs. A needle-shaped face hardly yields to that, because its neighbours resist. If only a
@@ -15,23 +15,24 @@ use super::evaluation_times::EvaluationTimes;
 use crate::geometry::{DMat2, DVec2};
 use crate::numerics::{Cholesky, CholeskyWorkspace};
 
-/// Maximum number of corrections at one t (resource limit; a round that has begun is completed).
+/// Maximum number of corrections at one t. One correction changes the deviations for a single face,
+/// or for all faces at once (resource limit; a pass over single faces is always completed).
 const MOST: usize = 128;
 
-/// Overrelaxation factor; the iteration converges for factors between 0 and 2 (Young 1954,
-/// successive overrelaxation) (heuristic).
+/// Factor by which each correction is enlarged (overrelaxation); the iteration converges for
+/// factors between 0 and 2 (Young 1954, successive overrelaxation) (heuristic).
 const FARTHER: f64 = 1.8;
 
 /// Maximum number of faces that are corrected one after the other (heuristic).
 const FEW: usize = 8;
 
-/// Solver for the deviations of the vertices that given forces cause. It borrows its memory from
-/// the evaluation of the warp.
+/// Solver for the deviations of the vertices with given right-hand sides. It borrows its memory
+/// from the evaluation of the warp.
 pub(super) struct DeviationSolver<'a> {
     cholesky: &'a Cholesky,
-    /// Force on each vertex.
+    /// Right-hand side at each vertex.
     forces: &'a mut [DVec2],
-    /// Resulting deviations: all x, then all y, in elimination order.
+    /// The deviations that were solved for last: all x, then all y, in elimination order.
     solved: &'a mut [f64],
     workspace: &'a mut CholeskyWorkspace,
 }
@@ -51,7 +52,7 @@ impl<'a> DeviationSolver<'a> {
         }
     }
 
-    /// Returns the deviations caused by the forces that `pull` adds.
+    /// Returns the deviations for the right-hand sides that `pull` writes.
     fn solve(&mut self, pull: impl FnOnce(&mut [DVec2])) -> &[f64] {
         self.forces.fill(DVec2::ZERO);
         pull(self.forces);
@@ -66,8 +67,8 @@ impl<'a> DeviationSolver<'a> {
     }
 }
 
-/// Corrects the faces that exceed the distortion bound. `deviation` contains the deviations of the
-/// vertices from their straight paths: all x, then all y, in elimination order.
+/// Corrects the faces that exceed the distortion bound by changing `deviation`, the deviations of
+/// the vertices from their straight paths: all x, then all y, in elimination order.
 pub(super) fn put_back(
     (bounded, times): (&Bounded, EvaluationTimes),
     deviation: &mut [f64],

@@ -1,10 +1,10 @@
 //! Time window in which a transient part grows from a point or shrinks to one.
 //!
 //! A part that exists in only one design is a tiny seed shape in the other. It moves with the whole
-//! design from the first frame to the last, like every other part, but changes its size, and its
-//! position relative to the design, only within its time window. A part that appears can thus wait
-//! until its place is free, and a part that disappears can make room in time. For t < 0 a part
-//! keeps its size at t = 0, and for t > 1 its size at t = 1.
+//! design from t = 0 to t = 1, like every other part, but changes its size, and its position
+//! relative to the design, only within its time window. A part that appears can thus wait until its
+//! place is free, and a part that disappears can make room in time. For t < 0 a part keeps its size
+//! at t = 0, and for t > 1 its size at t = 1.
 
 use crate::geometry::Side;
 use serde::{Deserialize, Serialize};

@@ -26,10 +26,11 @@ pub(super) struct ControlGrid {
 /// Block of 8 × 8 control points, indexed by row and then column.
 #[derive(Clone, Debug)]
 struct ControlBlock {
-    /// For each control point, the weighted sum of requested displacements; after
-    /// [`ControlGrid::divide`], the displacement.
+    /// For each control point, the weighted sum of the displacements that features request for it;
+    /// after [`ControlGrid::divide`], the displacement of the control point.
     controls: [[DVec2; SIDE]; SIDE],
-    /// For each control point, the sum of the weights of its requests.
+    /// For each control point, the sum of the weights of the displacements that features request
+    /// for it.
     weights: [[f64; SIDE]; SIDE],
 }
 
@@ -80,8 +81,8 @@ impl ControlGrid {
         &mut self.blocks[self.directory[entry] as usize - 1]
     }
 
-    /// Replaces the sum at each control point by the weighted mean of its requests. Each coordinate
-    /// is clamped to ±`bound`.
+    /// Replaces the sum at each control point by the weighted mean of the displacements that
+    /// features request for it. Each coordinate of the mean is clamped to ±`bound`.
     pub(super) fn divide(&mut self, bound: f64) {
         for block in &mut self.blocks {
             let rows = block.controls.iter_mut().zip(&block.weights);

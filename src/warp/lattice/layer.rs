@@ -103,10 +103,11 @@ impl SplineLayer {
         self.controls.divide(bound);
     }
 
-    /// Adds the requests of one feature to the sums of its control points.
+    /// Adds the displacements that one feature requests of the surrounding control points to the
+    /// sums at these control points.
     ///
-    /// A control point with the basis value w gets the request φ = w z / Σ w², where z is the
-    /// feature's displacement. The sums grow by w² φ and w², times the feature's weight (Lee,
+    /// A control point with the basis value w is requested to move by φ = w z / Σ w², where z is
+    /// the feature's displacement. The sums grow by w² φ and w², times the feature's weight (Lee,
     /// Wolberg, Shin 1997, eqs. 3 to 5).
     fn add(&mut self, pull: &FeaturePull) {
         let Some(SplineStencil { first, basis }) = self.stencil(pull.at) else {

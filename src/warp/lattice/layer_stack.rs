@@ -19,8 +19,8 @@ const MAX_DISPLACEMENT: f64 = 0.48;
 const MAX_LAYERS: [u32; 3] = [16, 4, 8];
 
 /// No further layer is added once the largest error of all features is at most this fraction of the
-/// permitted error (tolerance: one layer more or less must not cause a visible jump between
-/// frames).
+/// permitted error (tolerance: one layer more or less must not cause a visible jump from one film
+/// frame to the next).
 const TARGET_RESIDUAL: f64 = 0.1;
 
 /// Distances from the frame, in lengths of its longer side, at which the influence of a feature

@@ -58,15 +58,15 @@ trait WeightFalloff: Copy {
     fn weights<S: Simd>(self, simd: S, strength: S::f64s, q: VectorGroup<S>) -> VectorGroup<S>;
 }
 
-/// Falloff with b = 1.
+/// Weight falloff with b = 1: strength / (a + distance).
 #[derive(Clone, Copy)]
 struct InverseFalloff;
 
-/// Falloff with b = 2.
+/// Weight falloff with b = 2: strength / (a + distance)².
 #[derive(Clone, Copy)]
 struct InverseSquareFalloff;
 
-/// Falloff with arbitrary b.
+/// Weight falloff with any b: strength / (a + distance)ᵇ. Holds b.
 #[derive(Clone, Copy)]
 struct InversePowerFalloff(f64);
 
@@ -139,7 +139,8 @@ pub(super) fn look_up(
     }
 }
 
-/// Evaluation of all points, compiled once for each vector width.
+/// Computation of the displaced points in both designs for a list of points, compiled once for each
+/// vector width.
 struct LinePass<'a, F>(F, (ScaledLines<'a>, &'a [DVec2], [&'a mut [DVec2]; 2]));
 
 impl<F: WeightFalloff> WithSimd for LinePass<'_, F> {
@@ -174,7 +175,8 @@ struct PlaceBlock {
     /// x and y coordinates. A short block is padded with its last point; the results of the
     /// padding are not used.
     places: [PlaceLanes; 2],
-    /// Displacement of each point, indexed by design and axis.
+    /// For each design and axis, the displacement of each point from its position in the frame to
+    /// the design point that is shown there.
     mapped: [[PlaceLanes; 2]; 2],
 }
 
@@ -194,7 +196,8 @@ impl PlaceBlock {
         block
     }
 
-    /// Returns the group of points with index `at`, in scaled coordinates and with all sums zero.
+    /// Returns the group of points with index `at`: their scaled coordinates, and the sums over the
+    /// lines, which are still zero.
     #[inline(always)]
     fn cell<S: Simd>(&self, simd: S, at: usize, plane: &ScaledPlane) -> LaneCell<S> {
         let [x, y] = self.places.each_ref().map(|row| groups::<S>(row)[at]);
@@ -205,8 +208,8 @@ impl PlaceBlock {
         }
     }
 
-    /// Divides the sums of the group with index `at` by its weights and stores the resulting mean
-    /// displacements, multiplied by `unit` to convert them to plane units.
+    /// Divides the sums of the group with index `at` by the sum of the weights. Stores the
+    /// resulting mean displacements, multiplied by `unit` to convert them to plane units.
     #[inline(always)]
     fn take<S: Simd>(&mut self, simd: S, at: usize, cell: &LaneCell<S>, unit: f64) {
         // Without lines all sums are 0, and 0 / 10⁻³⁰⁰ gives zero displacement.
@@ -224,7 +227,8 @@ impl PlaceBlock {
         }
     }
 
-    /// Writes the displaced points of the block to both designs.
+    /// Writes the design points, which are `places` displaced by `mapped`, to the slice of each
+    /// design.
     #[inline(always)]
     fn write(&self, places: &[DVec2], designs: [&mut [DVec2]; 2]) {
         for (design, [dx, dy]) in designs.into_iter().zip(&self.mapped) {
@@ -235,7 +239,8 @@ impl PlaceBlock {
     }
 }
 
-/// Adds the contributions of all lines to the sums of each group of points.
+/// Adds the weight of each line, and its displacements times this weight, to the sums of each group
+/// of points.
 ///
 /// Square roots have a long latency. The distances to the next line are therefore computed before
 /// the current line is added, so that the processor can overlap the two.
@@ -277,8 +282,9 @@ struct LaneCell<S: Simd> {
     q: VectorGroup<S>,
     /// For each point: the sum of the weights of the lines added so far.
     weight: VectorGroup<S>,
-    /// For each point: the sum of weight times displacement over the lines added so far, indexed by
-    /// design and axis.
+    /// For each design and axis, the sum over the lines added so far of weight times displacement,
+    /// where the displacement leads from a frame point to the design point that the line assigns to
+    /// it.
     mapped: [[VectorGroup<S>; 2]; 2],
 }
 
@@ -367,7 +373,7 @@ fn groups_mut<S: Simd>(row: &mut PlaceLanes) -> &mut [VectorGroup<S>] {
     S::as_mut_simd_f64s(row).0.as_chunks_mut().0
 }
 
-/// Evaluates c + a x + b y.
+/// Evaluates an affine function c + a x + b y at a vector of points (x, y).
 #[inline(always)]
 fn affine<S: Simd>(simd: S, [c, a, b]: AffineFunction, x: S::f64s, y: S::f64s) -> S::f64s {
     let [c, a, b] = [simd.splat_f64s(c), simd.splat_f64s(a), simd.splat_f64s(b)];

@@ -51,7 +51,8 @@ struct IntrinsicEdge {
 }
 
 impl IntrinsicRing {
-    /// Computes edge lengths and directions.
+    /// Creates a ring from its vertices in source and target: computes the lengths and directions
+    /// of its edges.
     ///
     /// `default_turn` is the rotation, in radians, of all edges if no edge has a direction in
     /// both designs.

@@ -70,7 +70,8 @@ fn continuous_angles(ring: &[DVec2]) -> Vec<Option<f64>> {
     angles
 }
 
-/// Chooses the signs of reversals so that the ring turns exactly once in total.
+/// Chooses the signs of the turning angles at the vertices where the ring reverses its direction,
+/// so that the ring turns exactly once in total.
 fn fix_reversals(turning: &mut [f64], ring: &[DVec2]) {
     let origin = ring.first().copied().unwrap_or_default();
     let twice_area: f64 = edges(ring)
@@ -80,7 +81,7 @@ fn fix_reversals(turning: &mut [f64], ring: &[DVec2]) {
     let expected = TAU.copysign(twice_area);
     let mut missing = ((expected - turning.iter().sum::<f64>()) / TAU).round();
     for turn in turning.iter_mut() {
-        // Both signs are possible only at a reversal.
+        // Both signs are possible only where the ring reverses its direction.
         let can_flip = PI - turn.abs() < REVERSAL_TOLERANCE && *turn * missing < 0.0;
         if can_flip {
             *turn += TAU.copysign(missing);

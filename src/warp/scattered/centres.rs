@@ -1,4 +1,4 @@
-//! Preparation of the features for the linear system.
+//! Centres of the radial functions: preparation of the features for the linear system.
 //!
 //! Coincident centres are merged, slopes between close centres are limited, coordinates are
 //! normalised, and the best-fit similarity is subtracted from the displacements.
@@ -43,7 +43,7 @@ pub(super) struct CentreData {
     pub(super) positions: Vec<DVec2>,
     /// Displacements of each centre to the source and to the target.
     pub(super) values: Vec<[DVec2; 2]>,
-    /// Pairs that exceed the slope limit, in lexicographic order.
+    /// Pairs of centres whose displacements exceed the slope limit, in lexicographic order.
     pub(super) close_pairs: Vec<ClosePair>,
     /// Displacements of each centre to the source and to the target before slopes are limited.
     previous_values: Vec<[DVec2; 2]>,
@@ -103,7 +103,8 @@ impl CentreData {
         } = self;
         self.close_pairs.clear();
         memory.clear();
-        // Uses the original displacements, so that the result is independent of the order.
+        // Uses the original displacements, so that the result does not depend on the order of the
+        // centres.
         memory.extend_from_slice(&self.values);
         for (i, value) in self.values.iter_mut().enumerate() {
             let (mut sums, mut weights) = (memory[i], [1.0; 2]);

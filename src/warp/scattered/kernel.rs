@@ -127,8 +127,8 @@ pub(super) struct KernelCentres {
     pub(super) own: Vec<f64>,
 }
 
-/// Column of the system's matrix: the radial function of centre `of`, evaluated at all centres and
-/// multiplied by `sign`.
+/// Column of the matrix ±Φ of the linear system: the radial function of centre `of`, evaluated at
+/// all centres and multiplied by `sign`.
 pub(super) struct KernelColumn<'a> {
     pub(super) centres: &'a KernelCentres,
     pub(super) of: usize,

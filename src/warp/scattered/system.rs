@@ -41,8 +41,8 @@ const MIN_SLACK: f64 = 1e-13;
 /// (1 + 2 log 2)).
 const MAX_SLACK: f64 = 0.4;
 
-/// Numbers of which one is added to the diagonal of ±Φ, the matrix of the radial functions at the
-/// centres: the smallest with which the system can be solved (tolerance: from the size of rounding
+/// Ridges: numbers of which the smallest that makes the system solvable is added to the diagonal of
+/// ±Φ, the matrix of the radial functions at the centres (tolerance: from the size of rounding
 /// errors to the largest acceptable error).
 const RIDGES: [f64; 7] = [0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4];
 
@@ -176,7 +176,7 @@ impl RadialSolver {
         ]
     }
 
-    /// Assembles the matrix column by column.
+    /// Assembles the matrix of the linear system column by column.
     fn assemble(&mut self) {
         let n = self.places.positions.len();
         let size = n + 3;
@@ -254,10 +254,10 @@ impl RadialSolver {
     }
 }
 
-/// Dense linear system, solved with the smallest sufficient ridge.
+/// Dense linear system. The smallest sufficient ridge is added to the diagonal of its block ±Φ.
 #[derive(Debug, Default)]
 struct RidgedSystem {
-    /// Entries column by column.
+    /// Entries of the system's matrix, column by column.
     matrix: Vec<f64>,
     /// Four right-hand sides one after the other: x and y for each design.
     rhs: Vec<f64>,
@@ -269,7 +269,8 @@ struct RidgedSystem {
 }
 
 impl RidgedSystem {
-    /// Sets the right-hand sides from the displacements, with zeros in the affine rows.
+    /// Sets the right-hand sides from the displacements of the centres, with zeros in the three
+    /// rows of the affine part.
     fn set_right_hand_sides(&mut self, values: &[[DVec2; 2]]) {
         let size = values.len() + 3;
         self.rhs.clear();

@@ -280,8 +280,8 @@ fn numerically_singular_gaussians_are_solved_with_a_ridge() -> ScatteredTestResu
     Ok(())
 }
 
-/// Divides the time from `from` to `to` into `steps` steps and returns the largest distance that a
-/// looked-up point moves within one step.
+/// Divides the time from `from` to `to` into `steps` steps. Returns the largest distance that a
+/// source or target point shown at a fixed frame point moves within one step.
 fn farthest_step(warp: &ScatteredWarp, [from, to]: [f64; 2], steps: u32) -> f64 {
     let places: Vec<DVec2> = spread(200, 0.0).iter().map(|&p| 4.0 * p).collect();
     let mut last = lookups(warp, from, &places);
@@ -297,7 +297,8 @@ fn farthest_step(warp: &ScatteredWarp, [from, to]: [f64; 2], steps: u32) -> f64 
     farthest
 }
 
-/// Asserts continuity: a jump would not shrink with the length of the steps.
+/// Asserts that the mapping of `pairs` is continuous in t: a jump would not shrink with the length
+/// of the time steps.
 fn assert_no_jump(pairs: &[PointPair]) -> ScatteredTestResult {
     for basis in BASES {
         let warp = ScatteredWarp::new(&FRAME, pairs, &[], with(basis))?;

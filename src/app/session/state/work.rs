@@ -121,7 +121,8 @@ impl Session {
         let opened = work.document_constructor();
         let (loaded, origin) = work.take_interim()?;
         match (origin, &mut self.open) {
-            // This is the first interim result of a project being opened; it replaces the open one.
+            // The first interim result of a project being opened: this project replaces the open
+            // one.
             (Some(origin), open) => {
                 self.is_stale = false;
                 *open = Some(opened(loaded, origin));

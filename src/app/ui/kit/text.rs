@@ -1,4 +1,4 @@
-//! Changes of text for labels.
+//! Text of labels: capitalises the first letter.
 
 /// Returns the text with its first letter in upper case.
 pub fn capitalised(text: &str) -> String {

@@ -22,7 +22,7 @@ pub struct EditorColours {
     pub faint: Color32,
     /// Selected items and cuts.
     pub accent: Color32,
-    /// Pins and messages of a failed match.
+    /// Faulty pins, and messages of a failed match or a refused action.
     pub problem: Color32,
     /// Whether the background is light.
     pub is_light: bool,

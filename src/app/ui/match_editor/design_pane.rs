@@ -35,7 +35,7 @@ const HATCH_SPACING: f32 = 8.0;
 /// label would cover a smaller hole.
 const MIN_LABELLED_HOLE: f32 = 32.0;
 
-/// Pane of one design, with the affine map from the common frame of both designs to the window.
+/// Pane of one design, with the mapping from the common frame of both designs to the window.
 #[derive(Clone, Debug)]
 pub struct DesignPane {
     /// Design that the pane shows: source or target.

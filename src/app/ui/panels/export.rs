@@ -166,8 +166,8 @@ fn preset(ui: &mut Ui, draft: &mut Preferences) {
     segmented_row(ui, "Preset", tip, &mut preset, &presets);
     if let Some(preset) = preset.filter(|_| preset != before) {
         *layout = preset.layout();
-        // Slides and posts accept MP4. For a web page, `None` chooses the file type by content:
-        // usually GIF, which needs no video player.
+        // Slides and posts get MP4 if FFmpeg is installed. In all other cases, `None` chooses the
+        // file type by content: usually GIF, which needs no video player.
         draft.record_format = match preset {
             LayoutPreset::WebPage => None,
             _ if has_ffmpeg() => Some(FilmFileFormat::Film(FilmKind::Mp4)),
@@ -207,7 +207,8 @@ fn my_presets(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     });
 }
 
-/// Draws a text field and a button that save the current settings as a preset with this name.
+/// Draws a text field for a name, and a button that saves the current settings as a preset with
+/// this name.
 fn save_preset(ui: &mut Ui, intents: &mut Intents) {
     let id = ui.id().with("preset name");
     let mut name: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
@@ -316,7 +317,7 @@ fn summary(ui: &mut Ui, state: &UiState) {
 }
 
 /// Formats an estimated file size: in MB from a million bytes on, otherwise in kB. Numbers below 10
-/// get one decimal, because the estimate supports no more digits.
+/// get one decimal, larger numbers none, because the estimate is not precise.
 fn size_of(bytes: f64) -> String {
     let (number, unit) = if bytes >= 1e6 {
         (bytes / 1e6, "MB")

@@ -48,8 +48,7 @@ fn sections(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     if state.map.is_shown {
         map::show(ui, state, intents);
     }
-    // The method is not changed in `draft`. A new method is sent as a separate intent, which the
-    // keyboard shortcut also sends.
+    // The method is not changed in `draft`. A new method is sent as a separate intent.
     method::show(ui, state, project, intents);
     let mut draft = project.clone();
     if state.session.has_match_editor() && draft.warp != Some(WarpKind::None) {

@@ -1,5 +1,5 @@
-//! Match section of the inspector: rules for matching outlines, quality, density of the mesh, and
-//! the button that opens the match editor.
+//! Match section of the inspector: rules for matching outlines, number of matches that are tried,
+//! avoidance of collisions, density of the mesh, and the button that opens the match editor.
 
 use bevy_egui::egui::Ui;
 

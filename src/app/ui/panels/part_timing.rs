@@ -26,8 +26,8 @@ const THUMBNAIL_WIDTH: f32 = 30.0;
 /// Width of the drop-down list of easings in a row, in points.
 const EASING_WIDTH: f32 = 84.0;
 
-/// Maximum number of boundary loops of a design for which thumbnails also show the other parts.
-/// With more loops, a thumbnail would be a solid area.
+/// Maximum number of boundary loops, of all parts together, at which the thumbnail of a part also
+/// shows the other parts. With more loops, a thumbnail would be a solid area.
 const MAX_RINGS: usize = 60;
 
 /// Draws the part timing section, if there is more than one part; changes `times`.
@@ -133,7 +133,7 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     let Some(sides) = &sheet.sides else { return };
     let frame = Rect::from_min_max(rect.left_top() + vec2(18.0, 1.0), rect.right_bottom());
     let view = PartThumbnail::of(sides[side].bounds, frame.shrink(1.0));
-    // If the design has very many boundary loops, only those of the part are drawn.
+    // If there are very many boundary loops, only those of the highlighted part are drawn.
     let shows_others = sheet.rings.len() <= MAX_RINGS;
     let rings = sheet.rings.iter();
     for ring in rings.filter(|ring| shows_others || ring.piece == piece) {
@@ -144,7 +144,7 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     }
 }
 
-/// Affine map that fits a design into the rectangle of a thumbnail.
+/// Mapping that fits a design into the rectangle of a thumbnail.
 struct PartThumbnail {
     bounds: Bounds,
     rect: Rect,

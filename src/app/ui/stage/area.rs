@@ -10,8 +10,8 @@ use crate::app::ui::panels::appearance;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
 
-/// Natural logarithm of the zoom factor per point scrolled: eight lines of the wheel zoom by about
-/// 2.7 (heuristic).
+/// Natural logarithm of the zoom factor per point scrolled: eight lines of the wheel zoom by a
+/// factor of about 2.7 (heuristic).
 const ZOOM_PER_POINT: f32 = 0.0025;
 
 /// Sends intents that pan, zoom and fit the view when the user drags, scrolls or double-clicks in

@@ -1,5 +1,5 @@
-//! Rectangle over the stage that marks which part of the plane an exported film shows. It is drawn
-//! while the export settings are open.
+//! Frame of the exported film: a rectangle on the stage around the section of the plane that the
+//! export shows. It is drawn while the export settings are open.
 
 use bevy_egui::egui::{Color32, Rect, Stroke, StrokeKind, Ui, vec2};
 
@@ -7,10 +7,10 @@ use crate::app::ui::kit::theme::ThemePalette;
 use crate::app::ui::stage::area::is_light;
 use crate::app::ui::ui_state::UiState;
 
-/// Opacity of the shade outside the film's frame, out of 255 (heuristic).
+/// Opacity of the shade outside the rectangle, out of 255 (heuristic).
 const SHADE: u8 = 40;
 
-/// Draws the frame of the film and shades the stage outside it.
+/// Draws the rectangle that the export shows, and shades the stage outside it.
 pub fn frame(ui: &Ui, state: &UiState, stage: Rect) {
     let Some(framed) = &state.film_framing.0 else {
         return;

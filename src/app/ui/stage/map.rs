@@ -315,8 +315,8 @@ impl WeightLegend {
             .collect()
     }
 
-    /// Returns the height that the legend would have if it listed every design with a weight of 100
-    /// %. This height is reserved for the legend, so that nothing moves when the weights change.
+    /// Returns the height of a legend that lists every design with a weight of 100 %. This height
+    /// is reserved, so that nothing moves when the weights change.
     fn height(root: &Ui, pictures: &MapPictures, width: f32) -> f32 {
         let mut layout = Self::new(width);
         for (_, words) in Self::labels(pictures, &vec![1.0; pictures.weights().len()]) {

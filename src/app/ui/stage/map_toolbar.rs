@@ -49,7 +49,7 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         });
 }
 
-/// Draws the drop-down list of measures whose contours the map can show.
+/// Draws the drop-down list of the measures, such as area, whose contours the map can show.
 fn measures(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let measure_name =
         |measure: Option<MapMeasure>| measure.map_or("No contours", |m| m.name().title);

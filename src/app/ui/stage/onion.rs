@@ -1,4 +1,4 @@
-//! Onion skins: thin outlines of the film at its stops, drawn over the stage.
+//! Onion skins: thin outlines of the film at its stops, or at regular t, drawn over the stage.
 
 use bevy_egui::egui::{Color32, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
@@ -9,7 +9,7 @@ use crate::transition::colour_fraction;
 /// Opacity of an onion skin, from 0 to 1 (heuristic).
 const OPACITY: f32 = 0.55;
 
-/// Draws the onion skins. Each has the fill colour that the film has at the t of its stop.
+/// Draws the onion skins. Each has the fill colour that the film has at the t of the skin.
 pub fn show(ui: &Ui, state: &UiState, stage: Rect) {
     let painter = ui.painter().with_clip_rect(stage);
     let style = state.session.style();

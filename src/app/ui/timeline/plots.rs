@@ -144,7 +144,8 @@ fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
         .fold(plot, Plot::include_y)
 }
 
-/// Returns whether a quantity is a ratio, whose values span many powers of ten when a part appears.
+/// Returns whether a quantity is a ratio: the conformal or isometric distortion of the worst face.
+/// Such values span many powers of ten while a part grows from its seed shape.
 fn is_ratio(quantity: Quantity) -> bool {
     matches!(
         quantity,
@@ -224,7 +225,7 @@ fn heading(ui: &mut Ui, quantity: Quantity, series: &[[f64; 2]], t: f64) {
     });
 }
 
-/// Splits a series of points (t, value) at infinite values, which cannot be drawn.
+/// Returns the runs of points (t, value) between values that are not finite and cannot be drawn.
 fn runs(series: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     series
         .split(|[_, value]| !value.is_finite())
@@ -233,7 +234,7 @@ fn runs(series: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
         .collect()
 }
 
-/// Returns the values that the axis of a quantity always includes, such as 0 and 1 for counts.
+/// Returns the values that the axis of a quantity always includes, such as 0 for an area.
 fn included_values(quantity: Quantity) -> Vec<f64> {
     match quantity {
         Quantity::Area | Quantity::Perimeter | Quantity::Turning => vec![0.0],

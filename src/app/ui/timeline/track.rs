@@ -33,7 +33,8 @@ const FONT: FontId = FontId::proportional(11.5);
 /// Width of the word “extrapolation”, in points.
 const EXTRAPOLATION_WIDTH: f32 = 76.0;
 
-/// Minimum width of the space for the name of a design in which the name is drawn, in points.
+/// Minimum width of the space for the name of a design, in points. In less space, only the number
+/// of the design is drawn.
 const MIN_NAME_WIDTH: f32 = 48.0;
 
 /// Draws the track and, if `has_pictures`, the film strip below it, and handles the pointer on

@@ -40,7 +40,8 @@ fn from_the_base(source: &TestPiece, target: &TestPiece) -> CompatibleMesh {
     CompatibleMesh::new(faces, p, q, vec![]).expect("valid")
 }
 
-/// Checks the mesh of all steps together and the base mesh alone, in both orders of the designs.
+/// Checks the complete triangulation of a piece, and its base mesh alone, in both orders of the
+/// designs.
 fn assert_all_ways(source: &TestPiece, target: &TestPiece) {
     let options = PolygonOptions::default();
     for (p, q) in [(source, target), (target, source)] {

@@ -40,7 +40,7 @@ const DISTANCE: f64 = 0.25;
 /// (heuristic).
 const AT_ONCE: f64 = 0.5;
 
-/// Maximum collision cost of a time window in the schedule (heuristic).
+/// Largest cost that [`TransientScene::prices`] assigns to a time window (heuristic).
 const DEAR: f64 = 1.0;
 
 /// Position, time window and kind of growth of a part that exists in only one design.
@@ -113,8 +113,8 @@ pub(super) struct TransientScene<'a> {
 }
 
 impl<'a> TransientScene<'a> {
-    /// Creates the scene of the matched parts and of the holes. `specks` are the parts to be
-    /// placed, in this order.
+    /// Collects the outlines of the matched parts and of the holes at each sample time. `specks`
+    /// are the parts to be placed, in this order.
     pub(super) fn of(
         film: &Arap,
         (holes, specks): (&[PieceHole], &[TransientPart]),
@@ -386,8 +386,9 @@ impl<'a> TransientScene<'a> {
     fn carried(&self, speck: &TransientPart, life: TimeWindow, film: &Arap) -> DVec2 {
         let (side, here) = (speck.side, speck.ends[speck.side]);
         let begins = begins(speck, life);
-        // Only outlines of matched parts are compared, because their lists have the same order at
-        // each sample time.
+        // Outlines of matched parts with the same index in `now` and `then` correspond to each
+        // other. Parts that are already placed follow their own motion, so they are treated
+        // separately.
         let then = &self.outlines[self.steps.before(begins)];
         let now = &self.outlines[[0, self.steps.last()][side]];
         let born = self.born.iter().filter(|born| born.speck.side == side);

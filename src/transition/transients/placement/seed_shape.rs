@@ -145,8 +145,9 @@ impl TransientPart {
             .min_by(f64::total_cmp)
     }
 
-    /// Returns the vector that is added to the centroid of a growing part to obtain the centroid of
-    /// a swelling part with the same motion, when the fraction `share` of the change is completed.
+    /// Returns the vector from the centroid of the part, if it grows from a seed shape, to the
+    /// centroid of its full outline, if it swells, when the fraction `share` of the change is
+    /// completed. The mean of the outer points is the same in both cases.
     pub(super) fn off_middle_at(&self, share: f64) -> DVec2 {
         let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
         mean_point(outer) * (self.size(share) - 1.0)

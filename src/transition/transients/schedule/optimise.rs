@@ -1,7 +1,8 @@
 //! Optimises the time windows of parts and holes that exist in only one design.
 //!
-//! Coordinate descent from three starting schedules, then joint optimisation of pairs of the
-//! largest parts. Letters of a word are finally sorted into reading order.
+//! Each of three starting schedules is improved by coordinate descent. In the best of them, the
+//! time windows of the largest parts are then optimised in pairs. Letters of a word are finally
+//! sorted into reading order.
 
 use super::{GRAIN, ORDERLY, TransientSchedule, eighths, life};
 use crate::geometry::{Bounds, DVec2, Side};
@@ -9,8 +10,8 @@ use crate::warp::TimeWindow;
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::ops::Range;
 
-/// Maximum number of coordinate-descent sweeps, and of rounds of pairwise optimisation (resource
-/// limit).
+/// Maximum number of times that all time windows are optimised one after the other, and that all
+/// pairs of time windows of the largest parts are optimised (resource limit).
 const ROUNDS: u32 = 4;
 
 /// Maximum number of passes that sort time windows into reading order (resource limit).

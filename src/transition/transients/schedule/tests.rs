@@ -97,8 +97,8 @@ fn times_that_are_not_free_are_planned_around() {
     let lives = lives(&all);
     assert_eq!(lives[0], life(Side::Source, 0.5));
     assert!(lives[1..].iter().all(|life| life.from >= 0.75), "{lives:?}");
-    // Collision costs are cleared after optimisation, so all costs are below the collision cost of
-    // 1.
+    // The optimisation clears the collision costs at its end. Without them, every cost is below 1;
+    // each of them is 0 or 1 here.
     assert!(all.costs(1).iter().all(|(cost, _)| *cost < 1.0));
 }
 
@@ -110,8 +110,9 @@ fn two_change_places_where_neither_can_alone() {
         all.set(1, life(Side::Target, second));
         all.cost()
     };
-    // Each time window is a quarter or three quarters long. A long second time window has a cost,
-    // but it is cheaper than two short or two long ones.
+    // In `now`, the first time window is short and the second long. The collision cost `dear` of
+    // the long one is so low that changing only one of the two time windows would raise the total
+    // cost.
     let [short, long, now] = [[0.25, 0.25], [0.75, 0.75], [0.25, 0.75]].map(&mut take);
     let dear = (short.min(long) - now) / 2.0;
     assert!(dear > 0.01, "{dear}");

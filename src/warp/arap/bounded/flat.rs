@@ -97,8 +97,8 @@ impl Flattening {
         off <= FLAT
     }
 
-    /// Computes the Newton step. Returns `false` if there is no matrix or the matrix cannot be
-    /// factored.
+    /// Computes the step of Newton's method. Returns `false` if the sheet has no matrix
+    /// ([`FaceSheet::pattern`] is `None`) or the matrix cannot be factored.
     fn set_step(&mut self, sheet: &FaceSheet) -> bool {
         let (Some(pattern), Some(matrix)) = (&sheet.pattern, &mut self.matrix) else {
             return false;
@@ -146,7 +146,8 @@ impl Flattening {
         None
     }
 
-    /// Returns the derivative of the energy along the step.
+    /// Returns the derivative of the energy along the Newton step, at the point where the missing
+    /// angles were last measured.
     fn slope(&self) -> f64 {
         self.lack.iter().zip(&self.step).map(|(a, b)| a * b).sum()
     }

@@ -15,7 +15,8 @@ pub(in crate::warp::arap) struct BoundedFace {
     pub(super) map: PolarDecomposition,
     /// Gradients of the hat functions of the second and third corner in the source.
     pub(super) gradients: DMat2,
-    /// Product of the face's weight matrix W and `gradients`.
+    /// The gradients multiplied by the face's weight matrix W. The face's contribution to the
+    /// right-hand sides is computed from them.
     weighted: DMat2,
     /// Linear map from target to source.
     pub(super) back: DMat2,
@@ -48,8 +49,8 @@ impl BoundedFace {
         DMat2::from_cols(second - first, third - first) * self.gradients.transpose()
     }
 
-    /// Adds the force M W g of the face to its corners. M is `map`, W the face's weight matrix, and
-    /// g are the gradients of its hat functions.
+    /// Adds the contribution M W g of the face to the right-hand sides at its corners. M is `map`,
+    /// W the face's weight matrix, and g are the gradients of its hat functions.
     pub(in crate::warp::arap) fn pull(&self, map: DMat2, forces: &mut [DVec2]) {
         let [first, second, third] = self.corners.map(|v| v as usize);
         let pulled = map * self.weighted;

@@ -33,8 +33,9 @@ pub(super) struct FaceSheet {
     /// Sparsity pattern of the matrix of Newton's method; `None` if there are no unknowns or the
     /// matrix would need too much memory.
     pub pattern: Option<PatternCholesky>,
-    /// For each side of each face, the indices of three matrix entries: the diagonal entries of the
-    /// first and the second end, and the entry that combines both ends; [`FIXED`] if absent.
+    /// For each side of each face, the indices of three entries of the matrix of Newton's method:
+    /// the diagonal entries of the first and the second end, and their common off-diagonal entry;
+    /// [`FIXED`] if absent.
     pub entries: Vec<[[u32; 3]; 3]>,
 }
 
@@ -225,8 +226,8 @@ fn lengths(mesh: &CompatibleMesh, face: usize) -> [[f64; 3]; 2] {
     })
 }
 
-/// Returns the sparsity pattern of the matrix of a sheet, and the indices of the matrix entries of
-/// each side.
+/// Returns the sparsity pattern of the matrix of Newton's method for a sheet, and the indices of
+/// the matrix entries of each side.
 fn pattern(
     unknowns: usize,
     of_corners: &[[u32; 3]],
@@ -244,7 +245,8 @@ fn pattern(
         .map(|corners| {
             [0, 1, 2].map(|k| {
                 let [i, j] = [corners[k], corners[(k + 1) % 3]];
-                // Both ends have the same factor, so the matrix entries of this side would cancel.
+                // Both ends have the same unknown scale factor, so the matrix entries of this side
+                // would cancel.
                 if i == j {
                     return [FIXED; 3];
                 }

@@ -130,7 +130,8 @@ fn it_is_the_conformal_image_of_the_metric_between() {
             for k in 0..3 {
                 let [a, b, c] = [0, 1, 2].map(|step| corners[(k + step) % 3]);
                 match connectivity.twin(face, k) {
-                    // Lengths along the boundary are those of the metric.
+                    // A boundary edge has the length that follows from its linearly interpolated
+                    // squared length.
                     None => {
                         let ratio = length(places, a, b) / of_metric(a, b);
                         assert!((ratio - 1.0).abs() < 1e-9, "{t}: {ratio}");
@@ -236,7 +237,7 @@ fn whole_turns_are_kept() {
     let film = Arap::build(&mesh, &options, &Silent).expect("a film");
     let mut placer = film.placer();
     let (mut turned, mut before) = (0.0, 0.0);
-    // The left and right end of the middle row.
+    // The vertices at the left and right end of the plate's middle row.
     let ends = [N / 2 * (N + 1), N / 2 * (N + 1) + N].map(|v| v as usize);
     for step in 0..=64 {
         placer.place(f64::from(step) / 64.0);

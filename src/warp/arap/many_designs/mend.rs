@@ -14,10 +14,12 @@
 use crate::compatible::CompatibleFamily;
 use crate::geometry::{DMat3, DVec2, DVec3, orient2d};
 
-/// Maximum number of rounds that move only interior vertices (resource limit).
+/// Maximum number of passes over the folded faces that move only interior vertices (resource
+/// limit).
 const ROUNDS: usize = 12;
 
-/// Maximum number of further rounds that also move vertices on outlines (resource limit).
+/// Maximum number of further passes over the folded faces that also move vertices on outlines
+/// (resource limit).
 const PUSHES: usize = 20;
 
 /// Twice the area of a folded face after it is opened, divided by the sum of its squared side

@@ -113,8 +113,8 @@ impl BlendParts {
             .iter_mut()
             .zip(self.turned.chunks_exact(weights.len()))
         {
-            // The same operations as for the blended offset make both exactly equal if the blend is
-            // a design.
+            // `straight` and the offset from which it is subtracted are computed by the same
+            // operations, so that they are exactly equal if the blend is a design.
             let ends = turned.iter().zip(&self.angles).zip(weights);
             let straight: DVec2 = ends
                 .map(|((&end, &angle), &w)| DMat2::from_angle(angle) * end * w)
@@ -165,8 +165,8 @@ fn common_angles(family: &CompatibleFamily, masses: &[f64]) -> Vec<f64> {
         for (j, turn) in turns.iter_mut().enumerate() {
             let others = (0..count).filter(|&k| k != j);
             let sum: DVec2 = others.map(|k| before[k].rotate(products[j][k])).sum();
-            // Only half of the step is taken; otherwise two designs would swap their rotations for
-            // ever.
+            // The rotation moves only half of the way to its new value; otherwise two designs would
+            // swap their rotations for ever.
             *turn = (before[j] + sum.normalize_or(before[j])).normalize_or(before[j]);
         }
         let moved = turns.iter().zip(&before).map(|(a, b)| a.distance(*b));
