@@ -1,5 +1,5 @@
-//! Convenience functions of the crate root that build a transition straight from files, and the one
-//! error type for every step from reading designs to writing an image.
+//! The error type for every step from reading designs to writing an image. Also the convenience
+//! functions of the crate root, which build a transition straight from files.
 //!
 //! The functions only combine other public functions, which their documentation names.
 

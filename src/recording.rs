@@ -154,8 +154,8 @@ impl RecordingData {
         index.min(self.intervals.len() - 1)
     }
 
-    /// Writes the positions at `t` to each position list of `placement` that the warp moves; `t`
-    /// must be in [0, 1].
+    /// Writes the recorded positions at `t`, which must be in [0, 1], to `placement`. Of its three
+    /// position lists, only those that change with t are recorded and written.
     fn place(&self, t: f64, placement: &mut Placement) {
         let interval = &self.intervals[self.interval_at(t)];
         let mut first_block = 0;

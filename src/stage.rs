@@ -131,8 +131,10 @@ pub enum MorphSystems {
     /// Empty set for a program's own systems that change [`Blend`], meshes, options and styles. The
     /// plugin has no systems here.
     Playback,
-    /// Starts builds for new meshes or options, adds a [`Morph`] for each finished build, and
-    /// triggers [`BuildFailed`] for each failed one. Turns a [`StageTransition`] into a [`Morph`].
+    /// Starts a background build for each entity with new meshes, designs or options. Adds a
+    /// [`Morph`] to an entity when its build finishes, and triggers [`BuildFailed`] if the build
+    /// fails. A [`StageTransition`] holds a transition that the program has built itself. Its
+    /// entity gets the [`Morph`] at once, without another build.
     Build,
     /// Moves each [`Morph`] to the t of its [`Blend`]. Systems that run later see the frame at this
     /// t. If the graphics card evaluates the morph from a recording, the CPU computes its vertices

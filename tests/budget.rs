@@ -152,9 +152,10 @@ fn folder_cycles(uses: &Uses<'_>) -> Vec<String> {
 /// to it.
 type NeighbourGraph = BTreeMap<String, BTreeMap<String, String>>;
 
-/// The deepest folder that contains both files, and the names of its entries that contain them. A
-/// folder and the file that declares its modules (`a/` and `a.rs`) are one entry. `None` if both
-/// files are in one entry.
+/// Finds where the paths of two files part. Returns the deepest folder that contains both, and, for
+/// each file, the name of the entry of this folder that is or contains the file. A folder `a/` and
+/// the file `a.rs` that declares its modules are one entry. `None` if both files belong to one
+/// entry, so that their paths do not part.
 fn neighbours(from: &Path, to: &Path) -> Option<(PathBuf, [String; 2])> {
     let [a, b] = [from, to].map(|file| -> Names {
         let file = file.with_extension("");

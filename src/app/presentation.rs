@@ -1,4 +1,4 @@
-//! Talks: the drawing without panels in full screen, and the speaker window.
+//! Talks: the transition in full screen without panels, from stop to stop, and the speaker window.
 
 pub mod presenter;
 pub mod speaker_window;

@@ -48,9 +48,10 @@ pub(super) struct OpenedPair {
     pub loaded: LoadedProject,
     /// The built transition.
     pub transition: Transition,
-    /// Measured time for reading and importing the designs.
+    /// Measured time for reading the project and importing all designs of the film; the same for
+    /// each segment.
     pub import_time: Duration,
-    /// Measured time for building the transition.
+    /// Measured time for aligning the designs of this segment and building its transition.
     pub build_time: Duration,
 }
 

@@ -147,13 +147,14 @@ pub(super) fn scan<T: Send, F: FnMut(usize, usize, &mut [T])>(
     });
 }
 
-/// Prepares a face for rasterisation; `None` if it has no area.
+/// Prepares a face for rasterisation; `None` if its area is zero, subnormal or not finite.
 fn scan_patch(face: &[u32; 3], places: &[DVec2], placement: &Placement) -> Option<ScanPatch> {
     let at_corners = |points: &[DVec2]| face.map(|v| points[v as usize]);
     let corners = at_corners(places);
     let [a, b, c] = corners;
     let det = (b - a).perp_dot(c - a);
-    // The inverse of a subnormal number would overflow.
+    // `is_normal` rejects zero, infinity and NaN. It also rejects subnormal numbers, whose inverse
+    // may overflow.
     if !det.is_normal() {
         return None;
     }

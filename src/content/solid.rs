@@ -221,9 +221,11 @@ impl SolidContent {
             .map_or(t, |&loop_index| self.loop_time(loop_index, t))
     }
 
-    /// Returns the rings that are drawn at `t`, grouped by paint layer, the lowest layer first.
-    /// Rings of the same layer are in separate groups if their clocks or their fading differ. A
-    /// solid in a single colour has one group.
+    /// Returns the rings that are drawn at `t` as groups in drawing order, the lowest paint layer
+    /// first. All rings of a group have the same paint at `t`. A layer has several groups if its
+    /// parts differ in their clocks, or in whether they fade in or out, because their paints then
+    /// differ. A solid in a single colour has one group. `places` contains the vertex positions at
+    /// `t`.
     ///
     /// # Panics
     /// Panics if a loop uses a vertex that has no position.

@@ -43,15 +43,16 @@ impl SwellingShape {
         &self.loop_indices
     }
 
-    /// Fraction of the part's full thickness, from 0 to 1, when the part's clock shows the time
-    /// `t`.
+    /// Thickness of the part as a fraction of its full thickness, from 0 to 1. `t` is the part's
+    /// own time: the t of the transition, converted by the part's clock if it has one.
     pub(crate) fn thickness_fraction(&self, t: f64) -> f64 {
         self.window.size(t)
     }
 
-    /// Returns the rings of the part when the part's clock shows the time `t`; none while the part
-    /// is absent. `first_loop` contains the positions of the part's first boundary loop at that
-    /// moment. The shape is placed at the mean of these positions.
+    /// Returns the rings of the part; none while the part is absent. `t` is the part's own time:
+    /// the t of the transition, converted by the part's clock if it has one. `first_loop` contains
+    /// the positions of the part's first boundary loop at the same moment. The shape is placed at
+    /// the mean of these positions.
     #[must_use]
     pub fn rings_at(&self, first_loop: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
         let fraction = self.thickness_fraction(t);

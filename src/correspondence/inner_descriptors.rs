@@ -83,9 +83,13 @@ impl InnerDescriptors {
     }
 }
 
-/// Compares each source sample with each target sample by their rows of logarithms of inner
-/// distances. Returns one row of dissimilarities, in [0, 1], for each target sample. `weights`
-/// holds the weight of each column of the given rows.
+/// Returns the dissimilarities, in [0, 1], between all source samples and all target samples: one
+/// row for each target sample, with one entry for each source sample.
+///
+/// `source` and `target` hold one row for each sample. Every sample has reference points on its own
+/// curve, and column k of its row is the logarithm of the inner distance to the k-th of them. If
+/// two samples correspond, their k-th reference points are assumed to correspond too. `weights[k]`
+/// is the weight of column k.
 pub(super) fn inner_dissimilarities(source: &[f64], target: &[f64], weights: &[f64]) -> Vec<f64> {
     let total: f64 = weights.iter().sum();
     let mut pairs = Vec::with_capacity(source.len() / weights.len() * target.len() / weights.len());

@@ -60,9 +60,10 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
         last[j] = last[j].max(i);
     }
     let window = |j: usize| {
-        // The path's first and last columns never decrease from row to row. Among the rows within
-        // `reach`, the one with the smallest index therefore has the smallest first column, and the
-        // one with the largest index the largest last column.
+        // From row to row, neither the first column that the path visits nor the last one
+        // decreases. Of all rows within `reach` of row j, the one with the smallest index therefore
+        // has the smallest first column, and the one with the largest index has the largest last
+        // column.
         let low = first[j.saturating_sub(reach)].saturating_sub(reach);
         let high = (last[(j + reach).min(rows)] + reach).min(columns);
         [low, high]

@@ -27,11 +27,11 @@ pub(super) struct PathGrid {
 pub(super) struct StepCosts {
     width: usize,
     rows: usize,
-    /// Cost of the step along both curves that ends at each node.
+    /// For each node, the cost of the step that ends there and advances along both curves.
     both: Vec<f64>,
-    /// Cost of the step along the source alone that ends at each node.
+    /// For each node, the cost of the step that ends there and advances only along the source.
     source: Vec<f64>,
-    /// Cost of the step along the target alone that ends at each node.
+    /// For each node, the cost of the step that ends there and advances only along the target.
     target: Vec<f64>,
 }
 

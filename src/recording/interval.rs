@@ -14,7 +14,8 @@ use rayon::prelude::*;
 /// Number of vertices in a block (heuristic: their coordinates fill two 512-bit vectors).
 pub(super) const BLOCK: usize = 8;
 
-/// Row of a block: x and y of each of its vertices, alternating.
+/// Row of a block: one point (a position or a polynomial coefficient) for each of its vertices,
+/// stored as x₀, y₀, x₁, y₁ and so on.
 pub(super) type BlockRow = [f64; 2 * BLOCK];
 /// Row of a block in single precision.
 type NarrowBlockRow = [f32; 2 * BLOCK];

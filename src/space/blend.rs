@@ -1,4 +1,5 @@
-//! A built design space, and its frames, which show one blend each.
+//! Blends of a built design space: the space, which is prepared for blending its designs with any
+//! weights, and its frames, each of which shows one blend.
 
 use super::design_distance::DesignDistances;
 use super::error::SpaceNote;

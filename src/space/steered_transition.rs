@@ -38,8 +38,9 @@ pub struct SteeredTransition {
 }
 
 impl SteeredTransition {
-    /// Creates the transition with weight 1 on the first design. Returns `None` unless the content
-    /// of the space is solid (`BlendContent::Solid`), that is, blended as rigid parts.
+    /// Creates the transition, which at first has weight 1 on the first design and 0 on all others.
+    /// Returns `None` if the space blends its designs as distance fields or as pictures, because
+    /// the transition can show only rigid parts.
     #[must_use]
     pub fn new(space: &DesignSpace) -> Option<Self> {
         let BlendContent::Solid {

@@ -47,11 +47,13 @@ impl TransitionBuild {
     }
 }
 
-/// Transition or blend that a finished build has produced.
+/// Result of a finished build, from which the [`Morph`] of the entity is made.
 pub(super) enum BuildOutcome {
     /// Transition between two designs.
     Pair(Transition),
-    /// Blend of any number of designs.
+    /// Mixture of two or more designs, for an entity with a [`MeshFamily`] or with three or more
+    /// `MorphDesigns`. The [`SteeredTransition`] shows the mixture with the weights that were set
+    /// last.
     Family(SteeredTransition),
 }
 

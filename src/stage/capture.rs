@@ -163,8 +163,9 @@ fn camera(request: &CaptureStage, image: &Handle<Image>, anchor: glam::DVec2) ->
     )
 }
 
-/// Requests the screenshot of each capture once the graphics card is ready. Answers captures with
-/// an error after [`MAX_WAIT_FRAMES`] frames.
+/// Requests the screenshot of each capture once the graphics card has compiled all shaders. A
+/// capture whose picture has not arrived [`MAX_WAIT_FRAMES`] frames after the request is given up
+/// and answered with an error.
 pub(super) fn advance_captures(
     mut commands: Commands,
     mut answers: MessageWriter<StageCaptured>,

@@ -14,7 +14,8 @@ use super::line_mesh;
 use super::ring_fill::triangulate;
 use super::vertices::write_points;
 
-/// Writer of the render mesh of a solid or of distance fields with paint layers.
+/// Writes the render mesh of a content with paint layers, anew for each frame. The content is
+/// either a solid or a set of distance fields.
 #[derive(Clone, Debug)]
 pub(super) struct LayerMesh {
     /// Faces of the placement, by layer; they do not change from frame to frame. `None` for
@@ -55,11 +56,12 @@ impl LayerMesh {
         }
     }
 
-    /// Creates the writer for a solid with the paint layers in `stack`.
+    /// Creates the writer for a solid whose paint layers are those of `stack`.
     pub(super) fn of_solid(frame: &Frame, solid: &SolidContent, stack: &PaintLayerStack) -> Self {
-        // Faces cannot represent transient parts and holes. Nor can they represent layers in which
-        // the paint differs between boundary loops, which happens if parts have separate times or
-        // fade in or out.
+        // The faces of the mesh can be drawn instead of the boundary loops only if they cover
+        // exactly the filled area and each layer has one paint. Holes and swelling parts that exist
+        // in only one design violate the first condition. Parts with clocks of their own, and parts
+        // that fade in or out, violate the second.
         let has_transients = !solid.holes.is_empty()
             || !solid.swelling_shapes.is_empty()
             || solid.part_clocks.is_some()

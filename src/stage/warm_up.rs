@@ -22,7 +22,9 @@ use super::recording_upload::RecordingGpu;
 use super::ring_fill;
 use super::warp_grid::GridMaterial;
 
-/// A kind of shape, and the function that adds the vertex attributes of its render mesh.
+/// A kind of shape ([`InkKind`]), which selects the shader variant, and the vertex layout of its
+/// render mesh. The layout is a function that takes a mesh with positions only and adds the other
+/// vertex attributes that render meshes of this kind have, such as colours.
 type WarmUpVertexLayout = (InkKind, fn(Mesh) -> Mesh);
 
 /// Mesh of a triangle without area, which shows nothing.

@@ -15,11 +15,14 @@ pub(super) enum AnyWarp {
     Identity(IdentityWarp),
     /// Only boundary points move.
     Paths(Arc<BoundaryPaths>),
-    /// Rigidity-preserving motion of solid designs, or of a mesh of the whole plane.
+    /// Rigidity-preserving motion of solid designs, or of a triangle mesh that covers the whole
+    /// frame and carries a distance field or a picture.
     Rigid(Arap),
     /// Rigid parts of solids, some of which have their own timing.
     Staggered(StaggeredArap),
-    /// Rigidity-preserving motion of a mesh of the whole plane, relative to a common rigid motion.
+    /// Motion of a triangle mesh that covers the whole frame, composed of two motions: the rigid
+    /// motion that all pins and lines have in common, and the rigidity-preserving motion of the
+    /// mesh relative to it.
     RigidElastic(RigidElasticWarp<Arap>),
     /// Rigid parts that move from one blend of many designs to another.
     Blend(AlongBlend),

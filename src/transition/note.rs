@@ -29,7 +29,8 @@ pub enum TransitionNote {
     PinsUnmatched(RegionMatchError),
     /// The designs would match far better if one of them were mirrored.
     Mirrored {
-        /// Mean distortion of the best match as drawn; see [`CompatibleMesh::distortion`].
+        /// Mean distortion of the best match if neither design is mirrored; see
+        /// [`CompatibleMesh::distortion`].
         as_drawn: f64,
         /// Mean distortion with one design mirrored, for a match that was not improved by a search.
         mirrored: f64,

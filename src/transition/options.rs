@@ -42,7 +42,8 @@ pub struct TransitionOptions {
     /// Whether drawings keep their own colours.
     #[serde(skip_serializing_if = "is_default")]
     pub paint: PaintRule,
-    /// Options for the fading and the stacking order of painted parts.
+    /// Options of coloured drawings: whether unmatched parts fade in or out, and when parts change
+    /// their stacking order.
     #[serde(skip_serializing_if = "is_default")]
     pub coats: PaintLayerOptions,
     /// Amount of work for the search of a good match of outlines.

@@ -133,8 +133,11 @@ fn requested_matches(
     drafts_of_group(group, progress)
 }
 
-/// Matches the pieces of each group of parts as `choice` prescribes. Unpairs colliding pieces and
-/// matches again until no matched pieces collide, at most [`MAX_ROUNDS`] times.
+/// Matches the pieces of each group of parts with the function `choice`. Then finds the matched
+/// pieces that collide during the motion, unpairs some of them, and matches the changed groups
+/// again. Ends when no piece is unpaired any more, or when pieces have been unpaired [`MAX_ROUNDS`]
+/// times because of collisions. Pieces that cannot be triangulated are unpaired too; this is not
+/// counted.
 ///
 /// # Errors
 /// As [`separate`].

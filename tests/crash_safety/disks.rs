@@ -1,8 +1,9 @@
-//! Tests of outputs that cannot be written: full and read-only disks, file-size limits, missing
-//! permissions, and outputs that are folders, devices or pipes.
+//! Tests of outputs that cannot be written: the disk is full or read-only, the file would exceed
+//! the size limit, the permission is missing, or the path is that of a folder, a device or a pipe.
 //!
-//! Each case gives a one-line message with a remedy, and leaves the earlier file unchanged. A full
-//! stdout is reported in the same way; a closed stdout is ignored.
+//! In each case the program prints a one-line message that says how to solve the problem, and
+//! leaves the earlier file unchanged. A full stdout is reported in the same way; a closed stdout is
+//! ignored.
 
 use std::fs;
 use std::process::{Command, Output, Stdio};

@@ -1,6 +1,6 @@
-//! Tests that messages quote text from files and arguments on one line and without terminal control
-//! characters. Also tests of coloured output, and of errors that name inputs which do not fit
-//! together.
+//! Tests of error messages: text from files and arguments is quoted on one line, without the escape
+//! sequences that control a terminal; colour is used only in terminals; and inputs that do not fit
+//! together are named. The project title that `check` prints is tested in the same way.
 
 use crate::bounded_run::{BoundedFixture, terminal_control};
 

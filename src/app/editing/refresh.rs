@@ -1,4 +1,6 @@
-//! Rebuilds the match sheet from the open project and the transition on the stage.
+//! Rebuilds the match sheet from the open project and the transition on the stage. The match sheet
+//! is the data that the match editor shows: both designs in the common frame, with their parts,
+//! pins, cuts and matched points.
 
 use bevy::prelude::{DetectChanges, Local, Res, ResMut};
 

@@ -1,4 +1,4 @@
-//! Talks: the drawing in full screen, from stop to stop.
+//! Talks: the transition in full screen, from stop to stop.
 //!
 //! During a talk the panels are hidden and only the keys of a talk work, so that nothing else can
 //! appear before an audience. If the film has one segment, the talk starts at the first stop,

@@ -114,7 +114,9 @@ impl ReportColumn {
         }
     }
 
-    /// Adds the column to the summary with a histogram; small values are better.
+    /// Adds the column to the summary, with a histogram of its values. The measure must be one of
+    /// which smaller values are better than larger ones; the summary reports its largest value as
+    /// the worst.
     const fn with_histogram(self, label: &'static str) -> Self {
         Self {
             is_drawn: true,

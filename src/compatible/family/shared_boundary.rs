@@ -168,8 +168,8 @@ fn merged_rings(
         let is_it = |p: &DVec2| key(*p) == key(corner);
         list.source.iter().position(is_it)
     };
-    // For each design: the index of the current corner among the hub's points in the match with
-    // this design. It is 0 for the hub, which has no match.
+    // For each design: the index of the current corner in the `source` points of its match, which
+    // lie on the hub's ring. The hub has no match; its entry is not used.
     let mut corner_index = Vec::new();
     for (k, list) in lists.iter().enumerate() {
         corner_index.push(match list {

@@ -131,10 +131,10 @@ fn products(e: FaceCorners) -> [f64; 3] {
     [-e[1].dot(e[2]), -e[2].dot(e[0]), -e[0].dot(e[1])]
 }
 
-/// Dirichlet energy of the affine map of a face between two designs: |J|² / det J, times twice the
-/// area of the face in one design, times twice its area in the other. `products` is the result of
-/// [`products`] in one design, `e` contains the edges in the other. Exchanging the designs gives
-/// the same number.
+/// Returns 2A · 2B · |J|² / det J, where A and B are the areas of the face in the two designs, J is
+/// the Jacobian of the face's affine map from one design to the other, and |J| is its Frobenius
+/// norm. Exchanging the designs gives the same number. `products` holds the products of the face's
+/// edges in one design, as [`products`] returns them, and `e` holds its edges in the other design.
 fn dirichlet(products: [f64; 3], e: FaceCorners) -> f64 {
     (0..3).map(|k| products[k] * e[k].length_squared()).sum()
 }

@@ -157,7 +157,8 @@ fn cut_in_two(
         let [a, b] = &pieces.1;
         let (forward, swapped) = (rank(goal, a, b), rank(goal, b, a));
         let length_cost = LENGTH_WEIGHT * pieces.0 / region.area().sqrt();
-        // Either piece may be the one for `goal.first`; take the assignment that ranks better.
+        // Either piece may be the one for `goal.first`. Of the two assignments, take the one that
+        // deviates less from the goal; `rank` returns this deviation.
         if forward <= swapped {
             ranked.push((forward + length_cost, pieces.1));
         } else {

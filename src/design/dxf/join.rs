@@ -68,7 +68,8 @@ struct EndpointGraph {
     /// For each node, the curves that end there. A curve that starts and ends at the node is listed
     /// twice.
     curves_at: Vec<Vec<usize>>,
-    /// Whether each curve has been removed or traversed.
+    /// For each curve, whether it is done: either traversed, or removed because it has a free end
+    /// and so belongs to no ring.
     is_used: Vec<bool>,
 }
 

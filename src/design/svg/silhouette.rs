@@ -36,8 +36,9 @@ pub(super) fn silhouette(
     Ok(Regions::from_rings(&layers.compose(), FillRule::NonZero)?)
 }
 
-/// Returns the areas of a shape with their paints: the fill if it is visible, and the stroke if
-/// `strokes` is true.
+/// Returns the painted areas of a shape, each with its paint. The first is the area of the shape
+/// itself, a fill or a stroke; the second is the stroke attached to it, if there is one. Strokes
+/// are omitted if `strokes` is false. The first area is also omitted if its opacity is 0.
 fn visible_areas(shape: &SvgShape, strokes: bool) -> impl Iterator<Item = (&WindingRings, &Paint)> {
     let is_visible = (strokes || !shape.is_stroke) && shape.paint.opacity > 0.0;
     let fill = is_visible.then_some((&shape.rings, &shape.paint));

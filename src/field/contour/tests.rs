@@ -1,4 +1,5 @@
-//! Tests of contour tracing: exact shapes, borders, saddles, orientation and threads.
+//! Tests of contour tracing: exact shapes, contours along the border of the grid, saddles,
+//! orientation, and equal results for any number of CPU threads.
 
 use super::*;
 use std::f64::consts::PI;

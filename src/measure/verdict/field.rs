@@ -70,8 +70,8 @@ fn finding(
     span: [f64; 2],
 ) -> Finding {
     let overlap_fraction = overlap(pair);
-    // If the designs hardly overlap, shapes disappear and appear on either scale of distances,
-    // linear or logarithmic.
+    // If the designs hardly overlap, this is named as the cause. The scale of distances is not the
+    // cause then, because shapes disappear and appear on either scale, linear or logarithmic.
     let (cause, remedy) = if overlap_fraction < LITTLE_OVERLAP {
         (
             FindingCause::LittleOverlap {

@@ -50,7 +50,8 @@ impl LocalMaps {
     }
 }
 
-/// Returns the energy terms of all boundary edges except those of transient parts.
+/// Returns one energy term for each boundary edge of the mesh, except for the edges of parts that
+/// exist in only one design. These are the parts for which `time_windows` holds a time window.
 fn edges(
     mesh: &CompatibleMesh,
     faces: &[FaceMap],

@@ -107,8 +107,11 @@ impl MapCoefficients {
     }
 
     /// Coefficients of the exponential homotopy R(tθ) exp(t log S), with the rotation angle θ and
-    /// the stretch S. Here exp(t log S) = λ₂ᵗ I + (λ₁ᵗ − λ₂ᵗ) u uᵀ, where λ₁ ≥ λ₂ are the
-    /// eigenvalues of S and u is the unit eigenvector of λ₁. The array holds log λ₁ and log λ₂.
+    /// the stretch S. The third parameter holds log λ₁ and log λ₂, where λ₁ ≥ λ₂ are the
+    /// eigenvalues of S.
+    ///
+    /// With the unit eigenvector u of λ₁, exp(t log S) = λ₂ᵗ I + (λ₁ᵗ − λ₂ᵗ) u uᵀ. The matrix I is
+    /// multiplied by `one` = λ₂ᵗ, and the matrix u uᵀ by `middle` = λ₁ᵗ − λ₂ᵗ.
     #[inline(always)]
     fn exponential(t: f64, angle: f64, [large, small]: [f64; 2]) -> Self {
         let (sin, cos) = sin_cos(t * angle);

@@ -81,9 +81,10 @@ struct ArapBlendData {
     mender: Mender,
 }
 
-/// The matrix C W g of a face: the mean map C, the weight matrix W and, as columns of g, the
-/// gradients of the hat functions of the second and third corner. The rotation and the stretch of a
-/// blend times this matrix are the face's terms of the right-hand sides.
+/// The matrix C W g of a face, in the notation of the module. The columns of g are the gradients of
+/// the hat functions of the second and third corner. In a blend with weights w, the matrix is
+/// multiplied from the left by R(Σ w_j θ_j) exp(Σ w_j log S_j). The columns of the product are the
+/// face's terms of the right-hand sides at these two corners.
 #[derive(Clone, Copy, Debug)]
 struct BlendFace(DMat2);
 
@@ -291,9 +292,9 @@ impl ArapBlendData {
         }
     }
 
-    /// Returns, for each design, the sums that `add_pulls` computes at the vertices. They are
-    /// computed by the same operations as those of a blend, so that the two are exactly equal if
-    /// the blend is the design.
+    /// Returns, for each vertex, one entry per design: the sum that `add_pulls` computes at the
+    /// vertex if this design has weight 1 and all others 0. A blend with these weights has exactly
+    /// the same sums, because it uses `add_pulls` too.
     fn pulls_of_designs(&self) -> Vec<DVec2> {
         let (count, vertices) = (self.family.count(), self.parts.of_vertex.len());
         let mut ends = vec![DVec2::ZERO; count * vertices];

@@ -1,5 +1,6 @@
-//! Strain limiting: at each t, corrects the faces that exceed the distortion bound: the largest
-//! distortion of a face of the same sheet from source to target.
+//! Strain limiting: at each t, corrects the faces whose distortion exceeds the bound of their
+//! sheet. A sheet is a set of faces connected by shared edges. Its bound is the largest distortion
+//! (ratio of singular values) of the linear maps that take its faces from source to target.
 //!
 //! If many faces exceed the bound, all are corrected at once, each by the change that its own local
 //! map needs. A needle-shaped face hardly yields to that, because its neighbours resist. If only a

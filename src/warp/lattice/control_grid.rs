@@ -45,7 +45,8 @@ impl ControlBlock {
 impl ControlGrid {
     /// Resizes the grid to `[columns, rows]` control points and sets all of them to zero.
     pub(super) fn reset(&mut self, size: [usize; 2]) {
-        // Clears only the nonzero entries, because the directory of a fine layer is long.
+        // `directory` has an entry for every block of the grid. On a fine grid these are many, and
+        // nearly all are 0, so only the nonzero ones are reset.
         for entry in self.occupied.drain(..) {
             self.directory[entry] = 0;
         }

@@ -175,8 +175,8 @@ struct PlaceBlock {
     /// x and y coordinates. A short block is padded with its last point; the results of the
     /// padding are not used.
     places: [PlaceLanes; 2],
-    /// For each design and axis, the displacement of each point from its position in the frame to
-    /// the design point that is shown there.
+    /// For each design and axis: the displacement that leads from each point, which is a position
+    /// in the frame, to the point of the design that is drawn at this position.
     mapped: [[PlaceLanes; 2]; 2],
 }
 

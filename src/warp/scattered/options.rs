@@ -35,7 +35,7 @@ pub struct ScatteredOptions {
     /// Radius of the Gaussian as a fraction of the frame's diameter, in (0, 10]. Accuracy drops if
     /// the radius is much larger than the distances between features.
     pub width: f64,
-    /// Exponent μ of the multiquadric in [−1, 1) without 0; Ruprecht and Müller use ½.
+    /// Exponent μ of the multiquadric, from −1 to below 1 but not 0; Ruprecht and Müller use ½.
     pub exponent: f64,
     /// Smoothing parameter λ ≥ 0, which trades accuracy at the features for a smoother mapping. It
     /// is relative to the frame's diameter: for thin plates, λ times the squared diameter equals

@@ -202,12 +202,12 @@ pub fn segmented_control_where<T: PartialEq + Clone>(
     // Tooltips are shown to the left of the panel; next to the buttons they would cover the row's
     // label.
     let left = ui.clip_rect().left();
-    let size = vec2(segment_width(ui, options.len()), CONTROL_HEIGHT);
+    let widths = segment_widths(ui, options.iter().map(|(_, label, _)| *label));
     ui.spacing_mut().item_spacing.x = SEGMENT_GAP;
-    for (option, label, tip) in options {
+    for ((option, label, tip), width) in options.iter().zip(widths) {
         let is_selected = *value == *option;
         let cell = ui.add_enabled_ui(is_enabled(option), |ui| {
-            segment(ui, is_selected, label, size)
+            segment(ui, is_selected, label, vec2(width, CONTROL_HEIGHT))
         });
         let response = cell.inner;
         tooltip_left(&response, left, tip);
@@ -269,27 +269,42 @@ pub fn setting_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T
     });
 }
 
-/// Returns the width, in points, of each of `count` buttons of a segmented control that fills the
-/// available width.
-fn segment_width(ui: &Ui, count: usize) -> f32 {
-    let count = count.max(1) as f32;
-    (ui.available_width() - SEGMENT_GAP * (count - 1.0)) / count
+/// Returns the widths, in points, of the buttons of a segmented control that fills the available
+/// width: equal if each title fits, otherwise in proportion to the titles.
+fn segment_widths<'a>(ui: &Ui, titles: impl Iterator<Item = &'a str>) -> Vec<f32> {
+    let titles = title_widths(ui, titles);
+    let count = titles.len().max(1) as f32;
+    let available = ui.available_width() - SEGMENT_GAP * (count - 1.0);
+    let equal = available / count;
+    if titles.iter().all(|title| *title <= equal) {
+        return vec![equal; titles.len()];
+    }
+    let total: f32 = titles.iter().sum();
+    titles
+        .iter()
+        .map(|title| title * available / total)
+        .collect()
 }
 
-/// Returns whether each title fits into its button of a segmented control.
-fn fits_in_segments<'a>(ui: &Ui, titles: impl ExactSizeIterator<Item = &'a str>) -> bool {
+/// Returns whether all titles fit into the buttons of a segmented control next to each other.
+fn fits_in_segments<'a>(ui: &Ui, titles: impl Iterator<Item = &'a str>) -> bool {
+    let titles = title_widths(ui, titles);
+    let gaps = SEGMENT_GAP * titles.len().saturating_sub(1) as f32;
+    titles.iter().sum::<f32>() + gaps <= ui.available_width()
+}
+
+/// Returns the widths, in points, that the titles of buttons need.
+fn title_widths<'a>(ui: &Ui, titles: impl Iterator<Item = &'a str>) -> Vec<f32> {
     /// Sum of the spaces to the left and right of a title, in points. It keeps the titles of
     /// neighbouring buttons apart.
     const PADDING: f32 = 8.0;
-    let segment = segment_width(ui, titles.len());
     let width = |title: &str| {
-        let painter = ui.painter();
-        painter
-            .layout_no_wrap(title.to_owned(), SMALL, Color32::PLACEHOLDER)
-            .size()
-            .x
+        let galley = ui
+            .painter()
+            .layout_no_wrap(title.to_owned(), SMALL, Color32::PLACEHOLDER);
+        galley.size().x + PADDING
     };
-    titles.map(width).all(|width| width + PADDING <= segment)
+    titles.map(width).collect()
 }
 
 /// Draws a drop-down list of all choices of a setting.

@@ -1,5 +1,6 @@
-//! Searches the position and time window of a part that exists in only one design, among everything
-//! that is drawn during the motion.
+//! Searches for the position and the time window of a part that exists in only one design, such
+//! that the part collides as little as possible with everything else that is drawn during the
+//! motion.
 //!
 //! The part's *own position* is the position to which the outlines around it would carry it. Among
 //! positions that are equally free of collisions, the nearest to the own position is chosen; among
