@@ -285,8 +285,9 @@ fn section<'a>(page: &'a str, heading: &str) -> &'a str {
 #[test]
 fn the_reference_of_project_files_names_every_key() {
     let page = read(&root().join("docs/reference/project-file.md"));
-    // For each table of the project file: the section of the reference that names its keys. An
-    // inner table is written as a value.
+    // For each table of the project file: the section of the page that names its keys. A table
+    // inside a `[[designs]]` entry, such as `[designs.import]`, is preceded by the header of that
+    // entry.
     let tables = [
         ("[match]", "Match"),
         ("[triangulation]", "Match"),

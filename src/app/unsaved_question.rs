@@ -146,7 +146,8 @@ pub fn answer(
                         }
                         // The intent waits for the export to end.
                         (UnsavedKind::Film, UnsavedAnswer::Save) => {}
-                        // The export first deletes its partial file; the intent waits for that.
+                        // The user discards the film, so the export is cancelled. It then deletes
+                        // its partial file; the intent waits until that is done.
                         (UnsavedKind::Film, _) => exporter.cancel(),
                     }
                 }

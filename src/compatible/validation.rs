@@ -72,7 +72,8 @@ fn list(faces: &[usize], what: &str) -> String {
     let numbers: Vec<usize> = faces.iter().map(|f| f + 1).collect();
     match numbers[..] {
         [face] => format!("face {face} is {what}"),
-        // Five faces show where the problem is. A fold of thousands of faces would fill the screen.
+        // Only the first five faces are listed, because a list of thousands would fill the screen.
+        // Five show where the problem is.
         _ => format!("faces {} are {what}", list_first(&numbers, 5)),
     }
 }

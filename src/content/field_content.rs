@@ -16,9 +16,9 @@ use crate::warp::Placement;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Distance, in cells, of the field that stands in for a missing paint layer (derived: outside, as
-/// deep as a sample next to a boundary; with a small depth the layer of the other design shrinks
-/// slowly).
+/// Constant distance, in cells, of the field that replaces the field of a missing paint layer
+/// (derived: it is negative, so every sample is outside the shape, at the distance of a sample next
+/// to a boundary; a larger distance would make the layer of the other design shrink faster).
 const MISSING_DISTANCE: f64 = -1.0;
 
 /// Distance fields of a transition. Cloning is cheap because the fields are shared.

@@ -95,7 +95,8 @@ pub(super) fn stack_by_containment(groups: &[PaintGroup]) -> Vec<PaintLayer> {
     layers.into_iter().map(|(_, layer)| layer).collect()
 }
 
-/// Region of a group, with its height in the stack of paint layers.
+/// Region with its height in the stack of paint layers. It belongs to a [`PaintGroup`], which holds
+/// all regions of a file that have the same paint.
 struct StackedPiece {
     /// Index of the region's group in the list of groups.
     group: usize,

@@ -96,8 +96,9 @@ const SATURATED_SLACK: f64 = 0.5;
 /// its stair steps (heuristic).
 const PIXEL_ART_SIDE: u32 = 64;
 
-/// Uncertainty of a boundary point next to an anti-aliased pixel, in pixels (tolerance: accuracy of
-/// a straight edge that is traced from exact pixel coverage).
+/// Uncertainty of a boundary point next to an anti-aliased pixel, in pixels (tolerance: the error
+/// of a traced straight edge if the value of each pixel is exactly the fraction of its area that
+/// the figure covers).
 const ANTIALIASED_SLACK: f64 = 0.05;
 
 /// Opacity or grey level of each pixel, one byte per pixel, with the threshold that separates

@@ -100,7 +100,8 @@ impl PairStrip {
     }
 }
 
-/// Arrangement of strips in blocks. Each block is a stack of strips, one below the other.
+/// Arrangement of the strips on the sheet. A strip is the row of frames of one pair. Strips are
+/// stacked one below the other to form a block, and the blocks stand next to each other.
 #[derive(Clone, Copy, Debug)]
 struct PairSheetLayout {
     /// Side of a frame, in pixels.

@@ -1,5 +1,9 @@
-//! Finds defects of outlines before they are cleaned: crossings, touches, duplicates, outlines
-//! without area, and idle points (points that change nothing).
+//! Counts defects of outlines before they are cleaned: crossings, touches, duplicates, outlines
+//! without area, and idle points. An idle point repeats the previous point or lies straight between
+//! its neighbours, so the outline has the same shape without it.
+//!
+//! This module also removes duplicates, outlines without area and idle points. It only counts
+//! crossings and touches; they are resolved by [`Regions`](super::Regions).
 //!
 //! Edges are compared by a sweep along x (Shamos and Hoey 1976, with a list instead of their tree
 //! of active edges) and exact predicates. The sweep may make 500 comparisons per edge; if that is
@@ -168,8 +172,8 @@ fn corners(ring: &[DVec2]) -> (Vec<DVec2>, usize) {
     if points.len() > 1 && points.first() == points.last() {
         points.pop();
     }
-    // Count the points after the closing point is gone; every point removed from here on counts as
-    // idle.
+    // Points are counted only now, so that the closing point, which was removed above, does not
+    // count as idle. All points that are removed below do.
     let given_count = points.len();
     points.dedup();
     while points.len() > 1 && points.first() == points.last() {

@@ -36,9 +36,11 @@ const BUILT_FRACTION: f64 = 0.9;
 pub struct FilmRating {
     folds: usize,
     crossings: usize,
-    /// Largest number of pieces at any t, minus the number at t = 0 or t = 1, whichever is larger.
+    /// Largest number of connected regions of the shape at any sampled t, minus the number at t = 0
+    /// or t = 1, whichever is larger.
     extra_pieces: usize,
-    /// Largest number of holes at any t, minus the number at t = 0 or t = 1, whichever is larger.
+    /// Largest number of holes of the shape at any sampled t, minus the number at t = 0 or t = 1,
+    /// whichever is larger.
     extra_holes: usize,
     /// Whether the shape disappears completely at some t.
     disappears: bool,

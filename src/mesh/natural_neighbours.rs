@@ -92,7 +92,7 @@ impl NaturalNeighbours {
         })
     }
 
-    /// Returns the sites.
+    /// Returns the sites: the points that were given to [`Self::new`], in the same order.
     #[must_use]
     pub fn sites(&self) -> &[DVec2] {
         &self.sites

@@ -144,7 +144,7 @@ fn search(
         };
         add_scaled(&mut trial.x, length, direction);
         trial.value = function(&trial.x, &mut trial.gradient);
-        // Where the function is infinite or NaN, its value does not count as descent.
+        // If the value is +∞ or NaN, this comparison is false, and a shorter step is tried next.
         let descends = trial.value <= value + DECREASE * length * slope;
         if !descends {
             high = length;

@@ -548,7 +548,8 @@ mod tests {
         let segment_project = project.segment(1);
         project.replace_segment(1, segment_project.clone());
         assert_eq!(project, segment_project);
-        // The settings of pairs of designs are still in the file.
+        // The film follows the path, but the project file also keeps the settings of the pairs of
+        // designs.
         let reread = Project::parse(&project.to_toml().expect("text")).expect("a project");
         project.version = reread.version;
         assert_eq!(reread, project);

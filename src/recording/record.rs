@@ -318,7 +318,8 @@ fn will_converge(node_count: usize, off: f64, previous_off: f64, tolerance: f64)
     node_count as f64 + pairs_needed <= MAX_NODES as f64
 }
 
-/// Evaluates a warp at `t` and packs the positions that move into blocks.
+/// Evaluates a warp at `t`. Packs the positions in all moving channels (position lists) into blocks
+/// of [`BLOCK`] vertices.
 fn places(placer: &mut Placer, moving: MovingChannels, t: f64) -> PositionBlocks {
     placer.place(t);
     let placement = placer.placement();

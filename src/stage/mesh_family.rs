@@ -1,7 +1,8 @@
 //! Blends of several meshes with the same faces, or of several designs, by weights.
 //!
-//! Guaranteed: an entity shows the blend for the weights of the current update. The weights are
-//! ignored if one of them is not finite, or if their number is not that of the meshes or designs.
+//! Guaranteed: an entity shows the blend for the weights of the current update. If a weight is not
+//! finite, or if the number of weights is not that of the meshes or designs, the weights are
+//! ignored: the entity keeps its previous blend. A new entity then shows its first mesh or design.
 
 use std::sync::Arc;
 

@@ -152,7 +152,8 @@ impl BarShapes {
         self.write_discs(points, radius, origin, discs);
     }
 
-    /// Writes the quads of the lighter cores of the joints.
+    /// Writes the quads of the cores of the joints: smaller discs in a lighter colour, one on each
+    /// joint.
     pub(super) fn write_cores(&self, points: &[DVec2], origin: DVec2, out: &mut VertexPositions) {
         self.write_discs(points, JOINT_CORE_RADIUS * self.bar_width, origin, out);
     }

@@ -49,10 +49,10 @@ pub enum TransitionNote {
         /// Amount added to the diagonal, as a fraction of the diagonal.
         share: f64,
     },
-    /// Some parts could not be moved with bounded distortion. Each face of such a part is
+    /// Some parts could not be moved with bounded distortion. In these parts, each face is
     /// interpolated on its own instead.
     Unflattened {
-        /// Number of such parts.
+        /// Number of parts that could not be moved with bounded distortion.
         parts: usize,
     },
 }

@@ -150,8 +150,8 @@ fn unpair_until_separate(
     let mut chosen_groups = ChosenGroups::new();
     let (mut round, mut repairs) = (0, 0);
     loop {
-        // In most motions no piece is unpaired, so each pass of this loop gets half of the
-        // remaining progress.
+        // The number of rounds is not known in advance; usually there is only one. Each round gets
+        // half of the progress that remains, so that progress never reaches its end too early.
         let done = |rounds: u32| 1.0 - 0.5_f64.powi(rounds as i32);
         let progress = &ProgressSpan::new(progress, done(round), done(round + 1));
         let [matching, solving] = [(0.0, MATCH_PROGRESS), (MATCH_PROGRESS, 1.0)]

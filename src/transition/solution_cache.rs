@@ -1,5 +1,5 @@
-//! Packs the solved motion of two designs as text for a document, and restores it, so that the
-//! document opens at once and plays the same motion on every machine.
+//! Packs the solved motion of two designs as text for a project file, and restores it. A project
+//! file with this text opens at once and plays the same motion on every machine.
 //!
 //! The text contains the match and the mesh of the solved motion; restoring the motion takes one
 //! factorisation. A stored motion is used only for the outlines and options for which it was
@@ -40,7 +40,7 @@ pub(in crate::transition) struct KeyedSolution {
 }
 
 impl KeyedSolution {
-    /// Packs the motion as text for a document.
+    /// Packs the motion as text for a project file.
     pub fn cached_match(&self) -> CachedMatch {
         let packed = SolutionRecord::of(&self.solution).and_then(|record| record.encode());
         CachedMatch {
@@ -250,7 +250,7 @@ mod tests {
         (0..=8).map(at).collect()
     }
 
-    /// Returns the cached match after a round trip through a document.
+    /// Returns the cached match after it was written as text and read again.
     fn found(transition: &Transition) -> CachedMatch {
         let found = transition.cached_match().expect("outlines were matched");
         let text = toml::to_string_pretty(&found).expect("text");

@@ -14,7 +14,7 @@ pub enum EditorHandle {
     Pin(usize),
     /// An automatically matched point, by its index on the sheet.
     Feature(usize),
-    /// An end of a cut, by the cut's index on the sheet.
+    /// An end of a cut: the cut's index on the match sheet, and which of its ends it is.
     Cut(usize, CutEnd),
     /// An end of a line: the line's index in the project, and 0 or 1 for the end.
     Line(usize, usize),
@@ -36,9 +36,11 @@ pub enum EditorGrab {
     Pin(usize),
     /// An automatically matched point, by its index on the sheet; becomes a pin when it moves.
     Feature(usize),
-    /// An automatic cut, by its index on the sheet; becomes a cut of the project when it moves.
+    /// An end of an automatic cut: the cut's index on the match sheet, and which of its ends is
+    /// dragged. When the end moves, the cut becomes a cut of the project.
     AutomaticCut(usize, CutEnd),
-    /// A cut set by the user, by its index in the project.
+    /// An end of a cut of the project: the cut's index in the project, and which of its ends is
+    /// dragged.
     Cut(usize, CutEnd),
     /// An end of a line: the line's index in the project, and 0 or 1 for the end.
     Line(usize, usize),

@@ -1,5 +1,6 @@
-//! Invitation: the panel that says how to begin, shown next to a playing gallery project when the
-//! program starts without files.
+//! Decides when the invitation is shown, which gallery projects it offers, and which one plays next
+//! to it when the program starts without files. The panel itself is drawn in
+//! `app::ui::stage::invitation`.
 
 use bevy::prelude::{MessageReader, ResMut, Resource};
 

@@ -1,5 +1,6 @@
-//! The map of a space of designs with everything drawn on it: thumbnails, contours, saved blends
-//! and the blend under the marker.
+//! Computes and stores the images for the map of a space of designs: thumbnails, contours, saved
+//! blends and the blend under the marker. `app::ui::stage::map` shows them on the screen, with the
+//! marker and the path.
 
 use std::sync::Arc;
 
@@ -24,7 +25,7 @@ const SAVED_BLEND_PX: u32 = 96;
 /// a blend of distance fields takes some milliseconds).
 const SAVED_BLENDS_PER_FRAME: usize = 4;
 
-/// The map of a space of designs with everything drawn on it.
+/// A space of designs, its map, and the images that are shown on and next to the map.
 #[derive(Debug)]
 pub struct MapPictures {
     space: DesignSpace,

@@ -198,7 +198,8 @@ impl Playback {
     /// moving.
     fn heading(&self) -> f64 {
         match self.motion {
-            // A second key press during the motion leads to the stop after the next.
+            // During a motion to a stop, the next stop is counted from that stop, not from the
+            // current t. Each further key press therefore leads one stop further.
             PlaybackMotion::ToStop(motion) => motion.to,
             PlaybackMotion::Still | PlaybackMotion::Film { .. } => self.t,
         }

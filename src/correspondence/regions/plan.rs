@@ -301,8 +301,9 @@ impl<'a> MatchPlan<'a> {
     }
 }
 
-/// Matches each ring of a part, whose centre is `here`, with a tiny similar ring of the other
-/// design. The tiny rings lie at `here + displacement`.
+/// Matches each ring of an unmatched part with a tiny ring that is created for it in the other
+/// design. The tiny rings are copies of the rings, scaled down about the centre of the part,
+/// `here`, and moved by `displacement`.
 fn transient_rings(
     region: &Region,
     side: Side,

@@ -43,8 +43,8 @@ impl<'a> GroupPair<'a> {
             GroupValue::Number(number) => Some(number),
             GroupValue::Text(text) => std::str::from_utf8(text).ok().and_then(|t| t.parse().ok()),
         };
-        // The limit also applies to angles and knots, so that all arithmetic stays finite. The
-        // comparison rejects NaN, too.
+        // The limit also applies to angles and spline knots, so that all arithmetic stays finite.
+        // The comparison also rejects NaN.
         let number = number.filter(|n: &f64| n.abs() <= MAX_COORDINATE);
         number.ok_or(DxfError::Number(self.at))
     }

@@ -67,7 +67,8 @@ pub enum SvgError {
         "the style sheet is too long for a drawing of {0} elements; save it with plain attributes"
     )]
     TooMuchStyle(usize),
-    /// The drawing has no visible shapes.
+    /// The drawing has no visible fills. It may have visible strokes, but only if the import
+    /// options exclude strokes.
     #[error(
         "the drawing has no filled shapes{}; fill shapes",
         if *strokes { ", only strokes, and strokes = false" } else { "" }

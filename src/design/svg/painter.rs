@@ -356,7 +356,8 @@ impl SvgPainter<'_> {
     /// Returns the outline of a stroke in the coordinates of the path.
     fn stroke_outline(&self, path: &Path, stroke: &Stroke) -> Option<tiny_skia_path::Path> {
         let stroke = stroke.to_tiny_skia();
-        // At this resolution the stroker's error, a quarter of a pixel, equals the tolerance.
+        // The stroker's error is a quarter of a pixel. A pixel is 1 / resolution in the coordinates
+        // of the path. At the resolution `finest`, the error on the page equals the tolerance.
         let (sx, sy) = path.abs_transform().get_scale();
         let finest = 0.25 * f64::from(sx.max(sy)) / self.options.tolerance;
         let resolution = finest.clamp(1.0, MAX_RESOLUTION) as f32;

@@ -1,4 +1,5 @@
-//! Records the drawings of a camera as animation pieces: intervals of t with polynomial motion.
+//! Records a film as animation pieces: intervals of t with polynomial motion. The film is drawn by
+//! a [`Camera`], which holds the transitions, their style and the part of the plane to show.
 //!
 //! In each interval of t, the path of each point is fitted by a Chebyshev series, and the series
 //! are tested at moments not used for the fit. If they are not accurate enough, the interval is
@@ -278,7 +279,9 @@ fn static_shape(posed: PosedShape) -> MovingShape {
     }
 }
 
-/// Returns whether two snapshots have the same shapes, regardless of positions and colours.
+/// Returns whether two snapshots have equally many shapes, and corresponding shapes are of the same
+/// kind with the same path commands and number of points. Coordinates, colours and widths may
+/// differ.
 fn have_same_shapes(a: &ShapeSnapshot, b: &ShapeSnapshot) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.has_form_of(b))
 }

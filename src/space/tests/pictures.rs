@@ -65,7 +65,8 @@ fn render(space: &DesignSpace, weights: &[f64]) -> RgbaImage {
     frame.picture(&raster()).expect("pictures")
 }
 
-/// Returns the largest difference between two images in any channel of any pixel.
+/// Returns the largest difference between two images in any colour channel or the opacity of any
+/// pixel.
 fn max_difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
     let each = a.iter().zip(b.iter()).map(|(a, b)| a.abs_diff(*b));
     each.max().expect("pixels")

@@ -235,8 +235,9 @@ impl TransientSchedule {
         eighths(coming.life.side).map(cost).collect()
     }
 
-    /// Returns by how much the cost increases if a part with the given time window has the growth
-    /// profile `growth`; at least 0.
+    /// Returns by how much the cost increases if the part or hole with index `k` grows by the
+    /// growth profile `growth` instead of its own, in the time window `life`; at least 0. A growth
+    /// profile holds the turning and the area of the growing shape at each size.
     pub(in crate::transition) fn extra(
         &self,
         k: usize,

@@ -23,8 +23,10 @@ pub struct LatticeOptions {
     pub coarsest: u32,
     /// Permitted error of features as a fraction of the frame's diameter, in (0, 1].
     pub tolerance: f64,
-    /// Whether the plane must not fold. If so, layers with bounded displacements are composed;
-    /// otherwise unbounded layers are summed.
+    /// Whether folds of the plane are prevented. Each lattice layer displaces the plane smoothly,
+    /// by displacements that are chosen at the points of one lattice. If true, these displacements
+    /// are bounded, and the layers (several per level) are applied one after another. If false,
+    /// they are unbounded, and the layers (one per level) are added up.
     pub fold_free: bool,
 }
 

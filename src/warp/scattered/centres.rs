@@ -19,8 +19,9 @@ const MERGE_DISTANCE: f64 = 1e-6;
 
 /// Maximum slope K of the displacement between two features (heuristic).
 ///
-/// With 20, two features that are 0.01 frame diameters apart are interpolated exactly if their
-/// displacements differ by at most 0.2 frame diameters.
+/// The slope between two features is the difference of their displacements divided by their
+/// distance. With 20, two features that are 0.01 frame diameters apart are interpolated exactly if
+/// their displacements differ by at most 0.2 frame diameters.
 pub(super) const MAX_SLOPE: f64 = 20.0;
 
 /// Two centres whose displacements would exceed the slope limit.

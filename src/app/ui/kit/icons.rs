@@ -100,7 +100,9 @@ pub fn fonts() -> FontDefinitions {
         let data = variant.font_data().into();
         fonts.font_data.insert(name.to_owned(), data);
         // The first font of a family determines the line height. The icon font is first, so that
-        // icons are centred in their line. The text fonts contain egui's replacement character.
+        // icons are centred in their line. The text fonts follow, because egui draws a replacement
+        // character for missing glyphs, looks it up in every family, and logs a warning if a family
+        // lacks it.
         let mut family = vec![name.to_owned()];
         family.extend_from_slice(&fonts.families[&FontFamily::Proportional]);
         let key = FontFamily::Name(name.into());

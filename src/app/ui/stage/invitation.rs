@@ -1,5 +1,5 @@
-//! Invitation shown after the program starts without files: a card below the film that says how to
-//! open files and offers gallery projects as examples.
+//! Draws the invitation: a card below the film that says how to open files and offers gallery
+//! projects as examples. It is shown when the program starts without files.
 
 use bevy_egui::egui::text::{LayoutJob, TextWrapping};
 use bevy_egui::egui::{

@@ -1,5 +1,6 @@
-//! Lays out flattened faces in the plane, and computes the linear map of each face from the source
-//! to its flattened shape.
+//! Places the faces of a sheet in the plane after the module `flat` has flattened the sheet, and
+//! computes the linear map of each face from the source to its flattened shape. The flattened shape
+//! of a face is the triangle with the side lengths that `flat` chose at the current t.
 
 use super::flat::CornerProducts;
 use super::sheet::FaceSheet;
