@@ -8,8 +8,8 @@
 use bevy::prelude::{Has, Local, Query, Single, UVec2, Vec2, With};
 use bevy::window::{Monitor, OnMonitor, PrimaryMonitor, PrimaryWindow, Window, WindowMode};
 
-/// Minimum size of the window, in logical pixels: large enough for the list of keys, the largest
-/// panel.
+/// Minimum size of the window, in logical pixels: wide enough for the list of keys, the widest
+/// dialog.
 pub const MIN_SIZE: Vec2 = Vec2::new(960.0, 540.0);
 
 /// Width and height of the screen that the window leaves free when it opens, in logical pixels:

@@ -1,6 +1,6 @@
 //! Dialog that lists the keyboard shortcuts of the key map in use.
 
-use bevy_egui::egui::{self, Align2, Context, Id, Modal, Ui, vec2};
+use bevy_egui::egui::{self, Align2, Context, Id, Modal, ScrollArea, Ui, vec2};
 
 use crate::app::input::intent::Intent;
 use crate::app::input::key_map::KeyTableRow;
@@ -14,8 +14,11 @@ const KEYS_WIDTH: f32 = 136.0;
 /// Width of each of the two columns of the list, in points.
 const COLUMN_WIDTH: f32 = 440.0;
 
-/// Height of a shortcut's row, in points. The whole list must fit into the smallest window.
+/// Height of a shortcut's row, in points.
 const ROW_HEIGHT: f32 = 20.0;
+
+/// Height of the dialog without the list, in points: heading, hint and margins.
+const HEIGHT_WITHOUT_LIST: f32 = 96.0;
 
 /// Draws the dialog with the keyboard shortcuts, above everything else.
 pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
@@ -30,19 +33,11 @@ pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
             });
         });
         ui.add_space(GRID);
-        let groups = groups(state.keys.rows());
-        // A single column would be taller than the smallest window.
-        let (left, right) = groups.split_at(column_split(&groups));
-        ui.horizontal_top(|ui| {
-            for column in [left, right] {
-                ui.vertical(|ui| {
-                    ui.set_width(COLUMN_WIDTH);
-                    for rows in column {
-                        group(ui, rows);
-                    }
-                });
-            }
-        });
+        // In a small window the list scrolls.
+        let height = (ctx.content_rect().height() - HEIGHT_WITHOUT_LIST).max(ROW_HEIGHT);
+        ScrollArea::vertical()
+            .max_height(height)
+            .show(ui, |ui| list(ui, state.keys.rows()));
         hint(
             ui,
             "Drag the stage to pan, scroll to zoom, double-click to fit to view. \
@@ -52,6 +47,22 @@ pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
     if response.backdrop_response.clicked() {
         intents.push(Intent::ToggleHelp);
     }
+}
+
+/// Draws all shortcuts in two columns; a single one would be taller than most windows.
+fn list(ui: &mut Ui, rows: &[KeyTableRow]) {
+    let groups = groups(rows);
+    let (left, right) = groups.split_at(column_split(&groups));
+    ui.horizontal_top(|ui| {
+        for column in [left, right] {
+            ui.vertical(|ui| {
+                ui.set_width(COLUMN_WIDTH);
+                for rows in column {
+                    group(ui, rows);
+                }
+            });
+        }
+    });
 }
 
 fn groups(rows: &[KeyTableRow]) -> Vec<&[KeyTableRow]> {
