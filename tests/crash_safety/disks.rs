@@ -237,7 +237,7 @@ fn folders_devices_and_pipes_are_not_replaced() {
         assert_one_line_error(&output, text, output_name(out));
     }
     let line = "check --pairs pairs.csv --samples 3 --out /dev/full";
-    assert_one_line_error(&cli.run(line), "it is no file", "/dev/full");
+    assert_one_line_error(&cli.run(line), "it is not a file", "/dev/full");
     assert_eq!(cli.file_names("."), before);
 }
 
