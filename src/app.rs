@@ -88,9 +88,9 @@ pub mod testing {
     pub use super::playback::player::Playback;
     pub use super::presentation::presenter::Presentation;
     pub use super::redraw_pace::{PanelRepaint, RedrawPace};
-    pub use super::session::load::TransitionProblem;
     pub use super::session::save::SaveError;
     pub use super::session::state::{MethodUnavailable, Session};
+    pub use super::session::transition_problem::TransitionProblem;
     pub use super::stage_area::{AutoFit, StageArea};
     pub use super::stage_sync::OnStage;
     pub use super::unsaved_question::{UnsavedKind, UnsavedQuestion};

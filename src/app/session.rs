@@ -2,8 +2,8 @@
 //!
 //! [`document`] holds its settings and its segments on the stage, [`history`] its undo steps;
 //! [`load`] and [`save`] read and write files, [`unsaved_project`] stores unsaved changes,
-//! [`transition_work`] builds transitions in the background; [`origin`] records where a project
-//! comes from; [`state`] combines all these into the resource that the rest of the application
+//! [`transition_work`] builds transitions in the background, and [`transition_problem`] says why one
+//! cannot be built; [`origin`] records where a project comes from; [`state`] combines all these into the resource that the rest of the application
 //! uses.
 
 pub mod document;
@@ -12,5 +12,6 @@ pub mod load;
 pub mod origin;
 pub mod save;
 pub mod state;
+pub mod transition_problem;
 pub mod transition_work;
 pub mod unsaved_project;

@@ -387,7 +387,7 @@ fn a_defect_is_reported_with_its_t_cause_and_remedy() {
     );
     let table = cli.succeeds("check a.obj turned.obj --homotopy linear");
     for text in [
-        "2 faces fold near t = 0.38, near (",
+        "2 faces fold near t = 0.38, at (",
         "Cause: straight",
         "Fix: use polar interpolation",
     ] {

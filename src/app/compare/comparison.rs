@@ -11,8 +11,9 @@ use bevy::prelude::{
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::ComparisonMethod;
 use crate::app::jobs::job::{BackgroundJob, JobError};
-use crate::app::session::load::{TransitionProblem, transition_of};
+use crate::app::session::load::transition_of;
 use crate::app::session::state::Session;
+use crate::app::session::transition_problem::TransitionProblem;
 use crate::project::{LoadedProject, Project};
 use crate::transition::{Transition, TransitionMethod};
 use crate::warp::homotopy::Homotopy;

@@ -6,8 +6,8 @@ use bevy::prelude::{DetectChanges, Local, Res, ResMut};
 
 use crate::app::editing::editor::{EditorHandle, MatchEditor};
 use crate::app::editing::sheet::MatchSheet;
-use crate::app::session::load::TransitionProblem;
 use crate::app::session::state::Session;
+use crate::app::session::transition_problem::TransitionProblem;
 use crate::transition::Transition;
 
 /// Rebuilds the sheet when the project or its transition changes, or when the editor opens.

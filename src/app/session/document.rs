@@ -6,12 +6,11 @@ use std::sync::Arc;
 
 use crate::app::session::history::{ProjectSnapshot, UndoHistory};
 use crate::app::session::load;
-use crate::app::session::load::{
-    BuiltProject, BuiltSegment, PlayableSegment, RebuildRequest, TransitionProblem,
-};
+use crate::app::session::load::{BuiltProject, BuiltSegment, PlayableSegment, RebuildRequest};
 use crate::app::session::origin::ProjectOrigin;
 use crate::app::session::save;
 use crate::app::session::save::SaveError;
+use crate::app::session::transition_problem::TransitionProblem;
 use crate::app::session::unsaved_project::UnsavedProject;
 use crate::design::{Design, DesignSource};
 use crate::geometry::Bounds;

@@ -4,14 +4,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::app::session::origin::{ProjectOrigin, absolute};
+use crate::app::session::transition_problem::TransitionProblem;
 use crate::app::session::unsaved_project::UnsavedProject;
 use crate::content::ContentKind;
-use crate::correspondence::{PinError, RegionMatchError};
 use crate::design::{Design, DesignForm};
 use crate::project::{DesignEntry, LoadedProject, MapSettings, Project, ProjectError, gallery};
 use crate::space::SpaceError;
 use crate::transition::{
-    BuildError, BuildQuality, DesignFit, Timing, Transition, TransitionMethod, TransitionOptions,
+    BuildQuality, DesignFit, Timing, Transition, TransitionMethod, TransitionOptions,
     TransitionStyle,
 };
 use crate::work::progress::{Cancelled, Progress, ProgressShares, ProgressSpan, checkpoint};
@@ -94,17 +94,6 @@ impl SegmentSettings {
         needs_build(&self.segment_project, &now.segment_project)
             || context != (&now.all_designs, now.path_segment)
     }
-}
-
-/// Reason why the requested transition of a segment cannot be built.
-#[derive(Debug, thiserror::Error)]
-pub enum TransitionProblem {
-    /// The settings do not fit the designs.
-    #[error(transparent)]
-    Project(#[from] ProjectError),
-    /// No transition can be built from the designs with these settings.
-    #[error(transparent)]
-    Build(#[from] BuildError),
 }
 
 /// A request to open or rebuild a project.
@@ -542,31 +531,6 @@ pub fn transition_of(
         }
         error => TransitionProblem::Project(error),
     })
-}
-
-impl TransitionProblem {
-    /// Whether the build was refused only because it would take too long or too much memory.
-    #[must_use]
-    pub fn exceeds_limits(&self) -> bool {
-        matches!(self, Self::Build(error) if matches!(error.reason(), BuildError::TooMuch(_)))
-    }
-
-    /// Indices, in the project, of the pins that cause the problem.
-    #[must_use]
-    pub fn pins(&self) -> Vec<usize> {
-        let Self::Build(error) = self else {
-            return Vec::new();
-        };
-        match error.reason() {
-            BuildError::Match(RegionMatchError::Pins(error)) => match error {
-                PinError::NotFinite(a) => vec![*a],
-                PinError::SamePoint(a, b) | PinError::Crossing(a, b) => vec![*a, *b],
-            },
-            BuildError::Match(RegionMatchError::PinAcross(a)) => vec![*a],
-            // All other problems lie in the designs or the method.
-            _ => Vec::new(),
-        }
-    }
 }
 
 /// Whether two projects differ in settings that affect a transition: all settings except title,

@@ -14,8 +14,8 @@ use bevy::prelude::Resource;
 
 use crate::app::session::document::OpenDocument;
 use crate::app::session::history::{ProjectSnapshot, UndoHistory};
-use crate::app::session::load::TransitionProblem;
 use crate::app::session::save::SaveError;
+use crate::app::session::transition_problem::TransitionProblem;
 use crate::app::session::transition_work::TransitionWork;
 use crate::app::session::unsaved_project::UnsavedProject;
 use crate::content::ContentKind;

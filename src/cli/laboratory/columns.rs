@@ -25,7 +25,7 @@ pub(super) struct ReportColumn {
     reader: ColumnReader,
     /// Label of the measure in the summary, without the unit, and which values are better; `None`
     /// if the summary omits the measure.
-    pub told: Option<(&'static str, BetterDirection)>,
+    pub in_summary: Option<(&'static str, BetterDirection)>,
     /// Whether the summary shows a histogram of the values.
     pub is_drawn: bool,
 }
@@ -82,8 +82,8 @@ impl ReportColumn {
     }
 
     /// Returns the label in the summary, with its unit; `None` if the summary omits the measure.
-    pub fn words(&self) -> Option<String> {
-        let (label, _) = self.told?;
+    pub fn label(&self) -> Option<String> {
+        let (label, _) = self.in_summary?;
         Some(format!("{label}{}", self.unit.suffixes()[1]))
     }
 
@@ -109,7 +109,7 @@ impl ReportColumn {
     /// Adds the column to the summary.
     const fn summarised(self, label: &'static str, better: BetterDirection) -> Self {
         Self {
-            told: Some((label, better)),
+            in_summary: Some((label, better)),
             ..self
         }
     }
@@ -137,7 +137,7 @@ const fn column(name: &'static str, unit: ColumnUnit, reader: ColumnReader) -> R
         name,
         unit,
         reader,
-        told: None,
+        in_summary: None,
         is_drawn: false,
     }
 }
@@ -338,7 +338,7 @@ mod tests {
 
     #[test]
     fn labels_of_the_summary_name_the_unit() {
-        let labels: Vec<_> = ALL.iter().filter_map(ReportColumn::words).collect();
+        let labels: Vec<_> = ALL.iter().filter_map(ReportColumn::label).collect();
         assert!(labels.contains(&"total build time, seconds".to_owned()));
         assert_eq!(labels.len(), 18);
     }

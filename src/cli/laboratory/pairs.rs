@@ -7,6 +7,7 @@
 //! times are measured while other pairs use the other cores.
 
 use std::any::Any;
+use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -27,6 +28,7 @@ use crate::export::{
     ExportError, ExportTarget, PairStrip, StillKind, even_times, pair_sheet, write_atomically,
     write_still,
 };
+use crate::io::atomic_file::write_error_message;
 use crate::io::sanitize::SanitizedLine;
 use crate::transition::TransitionStyle;
 use crate::work::progress::Progress;
@@ -176,9 +178,14 @@ impl PairBatchArgs {
                     "cannot write `{shown}`: it is not a file; choose another name for the output"
                 )));
             }
-            if folder.is_some_and(|folder| !folder.is_dir()) {
+            if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+                let kind = match folder.exists() {
+                    true => io::ErrorKind::NotADirectory,
+                    false => io::ErrorKind::NotFound,
+                };
                 return Err(CliError::Failed(format!(
-                    "cannot write `{shown}`: its folder does not exist; create it or choose another"
+                    "cannot write `{shown}`: {}",
+                    write_error_message(&kind.into())
                 )));
             }
         }

@@ -116,7 +116,7 @@ impl PairSummary {
 /// Returns the statistics of a column over all reports; `None` if the summary omits the column or
 /// no pair has the measure.
 fn statistics(reports: &[&PairReport], column: &ReportColumn) -> Option<MeasuredPairs> {
-    let (_, better) = column.told?;
+    let (_, better) = column.in_summary?;
     let mut values: Vec<f64> = reports.iter().filter_map(|r| column.number(r)).collect();
     values.sort_unstable_by(f64::total_cmp);
     if matches!(better, BetterDirection::Large) {
@@ -127,7 +127,7 @@ fn statistics(reports: &[&PairReport], column: &ReportColumn) -> Option<Measured
     let is_drawn = column.is_drawn && values.len() >= MIN_HISTOGRAM_VALUES;
     Some(MeasuredPairs {
         column: column.heading(),
-        label: column.words()?,
+        label: column.label()?,
         median,
         worst_tenth,
         worst,

@@ -113,7 +113,7 @@ fn check(report: &PairReport, lines: &mut NumberLines) {
     }
     for finding in findings {
         let [x, y] = finding.finding.place.to_array().map(short);
-        lines.row("check", &format!("{}, near ({x}, {y})", finding.words));
+        lines.row("check", &format!("{}, at ({x}, {y})", finding.words));
         lines.row("", &format!("Cause: {}", finding.cause_words));
         lines.row("", &format!("Fix: {}", finding.remedy_words));
     }

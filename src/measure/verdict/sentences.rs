@@ -23,7 +23,7 @@ impl fmt::Display for FindingKind {
                 2 => write!(f, "the boundary crosses itself twice"),
                 n => write!(f, "the boundary crosses itself {n} times"),
             },
-            Self::Pieces { count, .. } => write!(f, "the shape breaks into {count} pieces"),
+            Self::Pieces { count, .. } => write!(f, "breaks into {count} pieces"),
             Self::Holes { count, at_ends } => match count {
                 1 => write!(f, "1 hole instead of none"),
                 count => write!(f, "{count} holes instead of {at_ends}"),

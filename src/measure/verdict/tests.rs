@@ -311,7 +311,7 @@ fn fields_that_lose_a_bridge_break_apart() {
     assert!(
         result
             .headline()
-            .starts_with("the shape breaks into 2 pieces near t = 0.")
+            .starts_with("breaks into 2 pieces near t = 0.")
     );
 }
 

@@ -6,7 +6,7 @@ use bevy_egui::egui::{self, Align2, Context, Label, Order, Rect, Ui, vec2};
 
 use crate::app::input::intent::Intent;
 use crate::app::notices::{Notice, NoticeKind, NoticeTopic};
-use crate::app::session::load::TransitionProblem;
+use crate::app::session::transition_problem::TransitionProblem;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{card, fixed_layer, icon_button};
