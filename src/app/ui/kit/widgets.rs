@@ -255,8 +255,8 @@ pub fn segment_button(ui: &mut Ui, is_selected: bool, label: &str, tip: &str, wi
     with_tooltip(response, tip).clicked()
 }
 
-/// Draws a row with all choices of a setting: a segmented control or, if the title of a choice does
-/// not fit into its button, a drop-down list.
+/// Draws a row with all choices of a setting: a segmented control or, if the titles do not fit next
+/// to each other, a drop-down list.
 pub fn setting_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     let titles = T::CHOICES.iter().map(|choice| choice.name().title);
     row(ui, label, tip, |ui| {
