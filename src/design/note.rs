@@ -52,17 +52,18 @@ pub enum ImportNote {
     Font(String),
     /// Number of ignored characters that have no outline in any font.
     Characters(usize),
-    /// Number of ignored pictures embedded in a drawing.
-    Pictures(usize),
-    /// Number of patterns and stroke gradients of a drawing that were replaced by their mean
-    /// colour.
-    MeanColours(usize),
-    /// Number of ignored masks of a drawing.
-    Masks(usize),
-    /// Number of elements of a drawing whose filter was ignored.
-    Filters(usize),
-    /// Number of groups of a drawing whose opacity or blend mode is only approximated.
-    GroupBlending(usize),
+    /// Feature of a drawing that was ignored or replaced by something simpler.
+    LostFeature {
+        /// Name of the feature: an element, a property or a few words.
+        feature: String,
+        /// What was done instead, such as "replaced by its mean colour"; `None` if the feature was
+        /// ignored.
+        replacement: Option<String>,
+        /// First elements that use the feature: their ids, or their tags and lines.
+        elements: Vec<String>,
+        /// Number of all elements that use the feature.
+        count: usize,
+    },
     /// The colours of a large picture were stored at a lower resolution.
     ReducedPicture {
         /// Original width and height in pixels.
@@ -182,11 +183,7 @@ impl fmt::Display for ImportNote {
             | Self::Texts(_)
             | Self::Font(_)
             | Self::Characters(_)
-            | Self::Pictures(_)
-            | Self::MeanColours(_)
-            | Self::Masks(_)
-            | Self::Filters(_)
-            | Self::GroupBlending(_) => self.write_drawing_note(f),
+            | Self::LostFeature { .. } => self.write_drawing_note(f),
         }
     }
 }
@@ -212,23 +209,22 @@ impl ImportNote {
                 write_ignored(f, *n, ["character", "characters"])?;
                 f.write_str(" because no installed font provides outlines; convert text to paths")
             }
-            Self::Pictures(n) => write_ignored(f, *n, ["embedded picture", "embedded pictures"]),
-            Self::MeanColours(n) => {
-                let what = ["pattern or stroke gradient", "patterns or stroke gradients"];
-                let (what, were) = (number(what, *n), number(["was", "were"], *n));
-                write!(f, "{n} {what} {were} replaced by the mean colour")
-            }
-            Self::Masks(n) => {
-                write_ignored(f, *n, ["mask", "masks"])?;
-                f.write_str("; use clip paths instead")
-            }
-            Self::Filters(n) => write_ignored(f, *n, ["filter", "filters"]),
-            Self::GroupBlending(n) => {
-                let (what, were) = (number(["group", "groups"], *n), number(["is", "are"], *n));
-                write!(
-                    f,
-                    "{n} {what} with opacity or a blend mode {were} shown approximately"
-                )
+            Self::LostFeature {
+                feature,
+                replacement,
+                elements,
+                count,
+            } => {
+                let done = replacement.as_deref().unwrap_or("ignored");
+                write!(f, "{}: {done} (", SanitizedLine(feature))?;
+                for (i, element) in elements.iter().enumerate() {
+                    let comma = if i == 0 { "" } else { ", " };
+                    write!(f, "{comma}{}", SanitizedLine(element))?;
+                }
+                match count.saturating_sub(elements.len()) {
+                    0 => f.write_str(")"),
+                    more => write!(f, " and {more} more)"),
+                }
             }
             _ => Ok(()),
         }

@@ -2,29 +2,41 @@
 //!
 //! Produces two results for a drawing. The silhouette is the union of all visible shapes, with
 //! strokes if requested; pure white shapes count as paper and erase the shapes below, unless the
-//! whole drawing is white. The paint layers keep colours, order and all strokes; a drawing that
-//! specifies no colour has no paint layers. Transforms, fill rules, clip paths, dashes, joins and
-//! caps are applied. A single element can be selected by its id; clip paths around it still apply.
+//! whole drawing is white. The paint layers keep colours, order, names and all strokes; a drawing
+//! that specifies no colour has paint layers without paint if its elements have names.
+//!
+//! A drawing is read in three steps. [`css`] and [`plain`] resolve style sheets, copies, symbols
+//! and everything else that `usvg` does not know into plain attributes. `usvg` resolves references
+//! and units, and lays out text. [`painter`] computes the areas of fills, strokes and markers, and
+//! applies clip paths, masks, patterns, blend modes and group opacity to them.
 //!
 //! One user unit (after the view box) is one unit, the origin is the lower left corner of the
-//! page and y points up. Shapes outside the page are kept. Coordinates pass through `f32`, so
-//! outlines are accurate to about 1e-7 of the page.
+//! page and y points up. Shapes are cut at the edge of the page, as in browsers, unless a single
+//! element is selected by its id. Coordinates pass through `f32`, so outlines are accurate to about
+//! 1e-7 of the page.
 //!
 //! Guarantees that nothing outside the file is loaded except installed fonts, and that a file that
-//! would expand into too much text or too many elements is refused before the expansion. Markers,
-//! embedded pictures, filters, masks and bitmap glyphs are ignored; patterns and stroke gradients
-//! are replaced by their mean colour. Missing fonts are substituted. All of this except markers is
-//! reported as notes.
+//! would expand into too much text or too many elements is refused before the expansion. Whatever
+//! browsers draw and this importer ignores or approximates is reported as a note with the element.
 
+mod blending;
+mod css;
 mod error;
 mod expansion_limits;
+mod flat_areas;
 mod fonts;
 mod has_colours;
 mod ink_layers;
+mod masks;
+mod names;
 mod notes;
 mod opacity_groups;
+mod page_edge;
 mod paint_layers;
 mod painter;
+mod path_area;
+mod patterns;
+mod plain;
 mod resolved_paint;
 mod shape;
 mod silhouette;
@@ -38,13 +50,25 @@ use super::flatten::MIN_TOLERANCE;
 use super::form::ImportedOutlines;
 use super::options::ImportOptions;
 use crate::geometry::{Bounds, DVec2};
+use css::cascade::{StyleCascade, read_sheets};
 use fonts::FontLookup;
-use notes::SvgReport;
+use notes::{LostFeatures, SvgReport, element_label};
 use painter::SvgReadOptions;
-use usvg::roxmltree::{self, Document, Node as Xml};
+use plain::{ElementBoxes, PlainDrawing, PlainSources, plain_drawing, source_element};
+use std::collections::HashMap;
+use std::io::Read;
+use std::sync::Mutex;
+use usvg::roxmltree::{self, Document, Node as Xml, NodeId};
 
 /// Maximum number of element ids listed in an error (resource limit: about one line).
 const NAMED_IDS: usize = 8;
+
+/// Maximum number of times that boxes of elements are measured: the box of a group depends on the
+/// transforms of its content (resource limit: each pass reads the drawing).
+const MAX_PASSES: usize = 4;
+
+/// Maximum depth of drawings embedded in each other (resource limit: the reader recurses).
+const MAX_EMBEDDED: usize = 3;
 
 /// Imports the text of an SVG file, or only the element with the given id.
 ///
@@ -58,42 +82,53 @@ pub(super) fn read(
     element: Option<&str>,
     options: &ImportOptions,
 ) -> Result<ImportedOutlines, SvgError> {
-    xml_limits::check_xml_text(text)?;
-    let xml = roxmltree::ParsingOptions {
-        allow_dtd: true, // drawing programs write a DOCTYPE; `check_xml_text` limits entities
-        nodes_limit: error::MAX_NODES,
-        ..Default::default()
-    };
-    let document = roxmltree::Document::parse_with_options(text, xml).map_err(SvgError::Xml)?;
-    let has_short_text = expansion_limits::check_expansion(&document)?;
+    let document = parse(text)?;
     let top = match element {
         Some(id) => element_of(&document, id)?,
         None => document.root_element(),
     };
     let font_lookup = FontLookup::default();
-    let tree = tree_of(&document, has_short_text.then_some(&font_lookup))?;
+    let SvgTree {
+        tree,
+        plain,
+        mut lost,
+        has_short_text,
+        embedded,
+    } = tree_of(&document, &font_lookup, 0)?;
+    lost.extend(embedded);
     let size = painter::page_of(&tree);
+    let source = |id: NodeId| document.get_node(id);
     let read_options = SvgReadOptions {
         tolerance: options.tolerance.max(MIN_TOLERANCE) * size.max_element(),
         // The id of the root element selects the whole drawing.
-        element: element.filter(|_| top != document.root_element()),
+        element: (top != document.root_element()).then(|| top.id()),
+        non_scaling: &plain.non_scaling,
+        name: &|id| source(id).map(names::element_name).unwrap_or_default(),
+        label: &|id| source(id).map(element_label).unwrap_or_default(),
+        path_length: &|id| {
+            let given = source(id)?.attribute("pathLength")?.trim().parse().ok();
+            given.filter(|length: &f64| *length > 0.0 && length.is_finite())
+        },
     };
-    let painted = painter::paint_tree(&tree, &read_options)?;
+    let mut painted = painter::paint_tree(&tree, &read_options)?;
+    if read_options.element.is_none() {
+        page_edge::cut_at_page(&mut painted, size);
+    }
     let regions = silhouette::silhouette(&painted, size, options.strokes)?;
     let report = SvgReport {
-        painted: &painted,
         strokes: options.strokes,
         absent: has_short_text.then(|| font_lookup.into_absent()),
+        lost,
     };
-    let notes = report.notes(top);
+    let notes = report.notes(&mut painted, top);
     let page = Bounds {
         min: DVec2::ZERO,
         max: size,
     };
-    let mut layers = paint_layers::paint_layers(painted.shapes, size);
-    if !has_colours::names_a_colour(&document) {
-        layers.clear();
-    }
+    let layers = match has_colours::names_a_colour(&document) {
+        true => paint_layers::paint_layers(painted.shapes, size),
+        false => paint_layers::uncoloured_layers(painted.shapes, size),
+    };
     Ok(ImportedOutlines {
         notes,
         extent: match read_options.element {
@@ -103,6 +138,17 @@ pub(super) fn read(
         regions,
         paint_layers: layers,
     })
+}
+
+/// Parses the XML of a drawing.
+fn parse(text: &str) -> Result<Document<'_>, SvgError> {
+    xml_limits::check_xml_text(text)?;
+    let xml = roxmltree::ParsingOptions {
+        allow_dtd: true, // drawing programs write a DOCTYPE; `check_xml_text` limits entities
+        nodes_limit: error::MAX_NODES,
+        ..Default::default()
+    };
+    Document::parse_with_options(text, xml).map_err(SvgError::Xml)
 }
 
 /// Finds the first element with the given id.
@@ -121,28 +167,150 @@ fn element_of<'d, 'a>(document: &'d Document<'a>, id: &str) -> Result<Xml<'d, 'a
         })
 }
 
-/// Converts a document to a `usvg` tree, in which references and styles are expanded. Text is
-/// laid out only if `font_lookup` is given.
-fn tree_of(document: &Document, font_lookup: Option<&FontLookup>) -> Result<usvg::Tree, SvgError> {
-    let has_text = || {
-        document
-            .descendants()
-            .any(|node| node.tag_name().name() == "text")
-    };
-    let font_lookup = font_lookup.filter(|_| has_text());
+/// Drawing in which references and styles are expanded.
+struct SvgTree {
+    tree: usvg::Tree,
+    plain: PlainDrawing,
+    lost: LostFeatures,
+    /// Whether the text was short enough to be laid out.
+    has_short_text: bool,
+    /// Features lost in embedded drawings.
+    embedded: LostFeatures,
+}
+
+/// Converts a document to a `usvg` tree. Very long text is not laid out. `depth` is the number of
+/// drawings in which the document is embedded.
+fn tree_of(
+    document: &Document,
+    font_lookup: &FontLookup,
+    depth: usize,
+) -> Result<SvgTree, SvgError> {
+    let mut ids = HashMap::new();
+    for node in document.descendants() {
+        if let Some(id) = node.attribute("id") {
+            ids.entry(id).or_insert(node);
+        }
+    }
+    let mut lost_sheets = LostFeatures::default();
+    let sheets = read_sheets(document, &mut lost_sheets);
+    let cascade = StyleCascade::new(&sheets);
+    let expansion = expansion_limits::check_expansion(document, &ids, &cascade)?;
+    let font_lookup = Some(font_lookup).filter(|_| expansion.has_short_text);
+    let mut boxes = ElementBoxes::new();
+    for pass in 1.. {
+        let mut lost = LostFeatures::default();
+        let sources = PlainSources {
+            document,
+            ids: &ids,
+            cascade: &cascade,
+            broken: &expansion.broken,
+            boxes: &boxes,
+        };
+        let plain = plain_drawing(&sources, &mut lost)?;
+        let (tree, embedded) = usvg_tree(&plain, font_lookup, depth)?;
+        if !plain.lacks_boxes || pass == MAX_PASSES {
+            let has_short_text = expansion.has_short_text;
+            lost.extend(lost_sheets);
+            return Ok(SvgTree {
+                tree,
+                plain,
+                lost,
+                has_short_text,
+                embedded,
+            });
+        }
+        measure(tree.root(), &mut boxes);
+    }
+    unreachable!("the last pass returns")
+}
+
+/// Records the boxes of all elements in their own coordinates.
+fn measure(group: &usvg::Group, boxes: &mut ElementBoxes) {
+    for node in group.children() {
+        let found = node.bounding_box();
+        let point = |x: f32, y: f32| DVec2::new(x.into(), y.into());
+        if let Some(id) = source_element(node.id()) {
+            boxes.entry(id).or_insert(Bounds {
+                min: point(found.left(), found.top()),
+                max: point(found.right(), found.bottom()),
+            });
+        }
+        if let usvg::Node::Group(inner) = node {
+            measure(inner, boxes);
+        }
+    }
+}
+
+/// Reads a plain drawing. Returns the tree and the features lost in embedded drawings. Text is laid
+/// out only if `font_lookup` is given.
+fn usvg_tree(
+    plain: &PlainDrawing,
+    font_lookup: Option<&FontLookup>,
+    depth: usize,
+) -> Result<(usvg::Tree, LostFeatures), SvgError> {
+    let document = Document::parse(&plain.text).map_err(SvgError::Xml)?;
+    let has_text = plain.text.contains("<text");
+    let text_fonts = font_lookup.filter(|_| has_text);
+    let lost = Mutex::new(LostFeatures::default());
     let options = usvg::Options {
-        // Pictures are never loaded, neither linked nor embedded ones.
         image_href_resolver: usvg::ImageHrefResolver {
-            resolve_data: Box::new(|_, _, _| None),
-            resolve_string: Box::new(|_, _| None),
+            resolve_data: Box::new(|kind, data, _| {
+                let font_lookup = font_lookup?;
+                let found = embedded_drawing(kind, &data, font_lookup, depth);
+                let mut lost = lost.lock().ok()?;
+                match found {
+                    Some((tree, inner)) => {
+                        lost.extend(inner);
+                        Some(usvg::ImageKind::SVG(tree))
+                    }
+                    None => {
+                        lost.ignore("embedded drawing that cannot be read", "<image>");
+                        None
+                    }
+                }
+            }),
+            resolve_string: Box::new(|_, _| None), // other files are never read
         },
-        style_sheet: Some(expansion_limits::STYLE.to_owned()),
         font_family: fonts::UNNAMED.to_owned(),
-        font_resolver: font_lookup.map(FontLookup::resolver).unwrap_or_default(),
-        fontdb: font_lookup.map(|_| fonts::fonts()).unwrap_or_default(),
+        font_resolver: text_fonts.map(FontLookup::resolver).unwrap_or_default(),
+        fontdb: text_fonts.map(|_| fonts::fonts()).unwrap_or_default(),
         ..Default::default()
     };
-    usvg::Tree::from_xmltree(document, &options).map_err(SvgError::Svg)
+    let tree = usvg::Tree::from_xmltree(&document, &options).map_err(SvgError::Svg)?;
+    drop(options);
+    let lost = lost.into_inner().unwrap_or_default();
+    Ok((tree, lost))
+}
+
+/// Unpacks a compressed drawing; returns `None` if it is damaged or larger than a file may be.
+fn unpacked_svgz(data: &[u8]) -> Option<Vec<u8>> {
+    let mut unpacked = Vec::new();
+    let limit = crate::io::read::MAX_FILE_BYTES;
+    let mut reader = flate2::read::GzDecoder::new(data).take(limit);
+    reader.read_to_end(&mut unpacked).ok()?;
+    Some(unpacked)
+}
+
+/// Reads a drawing that is embedded as data. Returns `None` for pictures, and for drawings that
+/// cannot be read.
+fn embedded_drawing(
+    kind: &str,
+    data: &[u8],
+    font_lookup: &FontLookup,
+    depth: usize,
+) -> Option<(usvg::Tree, LostFeatures)> {
+    if depth == MAX_EMBEDDED || !matches!(kind, "image/svg+xml" | "text/plain" | "text/xml") {
+        return None;
+    }
+    let unpacked = match data.starts_with(&[0x1f, 0x8b]) {
+        true => unpacked_svgz(data)?,
+        false => data.to_vec(),
+    };
+    let document = parse(std::str::from_utf8(&unpacked).ok()?).ok()?;
+    let inner = tree_of(&document, font_lookup, depth + 1).ok()?;
+    let mut lost = inner.lost;
+    lost.extend(inner.embedded);
+    Some((inner.tree, lost))
 }
 
 #[cfg(test)]

@@ -57,11 +57,6 @@ pub enum SvgError {
         "line {0}: the drawing is nested more than {MAX_DEPTH} levels deep, including copies; ungroup it"
     )]
     TooDeep(u32),
-    /// An element refers to itself; holds its line, counted from 1.
-    #[error(
-        "line {0}: an element refers to itself, directly or through others; remove the reference"
-    )]
-    Circular(u32),
     /// Matching the style sheet would take too long; holds the number of elements.
     #[error(
         "the style sheet is too long for a drawing of {0} elements; save it with plain attributes"

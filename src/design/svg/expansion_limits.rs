@@ -5,46 +5,49 @@
 //! one pass over the graph of references. The pass visits every element once and copies nothing.
 //!
 //! The count is an upper bound: a target that `usvg` caches is nevertheless counted once per
-//! reference. Markers and filters are not counted, because [`STYLE`] disables them.
+//! reference, and a marker once per corner of all shapes that inherit it. Filters are not counted,
+//! because they are not drawn.
 
+use super::css::cascade::StyleCascade;
+use super::css::syntax::read_declarations;
+use super::css::variables::has_references;
 use super::error::{MAX_DEPTH, MAX_ELEMENTS, SvgError};
-use std::collections::HashMap;
-use usvg::roxmltree::{Document, Node};
-
-/// Style sheet that disables markers and filters in every drawing. They do not change the
-/// filled area, but could expand exponentially.
-pub(super) const STYLE: &str = "* { marker: none !important; filter: none !important }";
-
-/// Maximum product of the number of style rules and the number of elements (resource limit: every
-/// rule is tested against every element).
-const MAX_STYLE_TESTS: usize = 50_000_000;
+use std::collections::{HashMap, HashSet};
+use usvg::roxmltree::{Document, Node, NodeId};
 
 /// Maximum estimated time for laying out all text, in microseconds (resource limit: 2 s).
 const MAX_TEXT: u64 = 2_000_000;
 
-/// Checks the expanded size and depth, circular references and the cost of the style sheet. Returns
-/// whether the text of the drawing is short enough to be laid out.
-pub(super) fn check_expansion(document: &Document) -> Result<bool, SvgError> {
-    let sheet = StyleReferences::of(document);
-    let elements = document.descendants().filter(Node::is_element).count();
-    if sheet.rules.saturating_mul(elements) > MAX_STYLE_TESTS {
-        return Err(SvgError::TooMuchStyle(elements));
-    }
-    let mut ids = HashMap::new();
-    for node in document.descendants() {
-        if let Some(id) = node.attribute("id") {
-            ids.entry(id).or_insert(node);
-        }
-    }
+/// References, as pairs of an element and its target, that make an element refer to itself.
+pub(super) type BrokenReferences = HashSet<(NodeId, NodeId)>;
+
+/// Result of [`check_expansion`].
+pub(super) struct ExpansionReport {
+    /// Whether the text of the drawing is short enough to be laid out.
+    pub has_short_text: bool,
+    /// References without which the elements of the drawing form a tree.
+    pub broken: BrokenReferences,
+}
+
+/// Checks the expanded size and depth of a drawing. `ids` holds the first element with each id.
+pub(super) fn check_expansion<'d, 'a>(
+    document: &'d Document<'a>,
+    ids: &HashMap<&'d str, Node<'d, 'a>>,
+    cascade: &StyleCascade,
+) -> Result<ExpansionReport, SvgError> {
     let mut counter = ExpansionCounter {
         document,
         ids,
-        sheet,
+        references: ElementReferences::new(document, cascade),
         sizes: HashMap::new(),
+        broken: HashSet::new(),
         longest_font_list: longest_font_list(document),
     };
     let size = counter.expanded_size(document.root_element(), 0)?;
-    Ok(size.text <= MAX_TEXT)
+    Ok(ExpansionReport {
+        has_short_text: size.text <= MAX_TEXT,
+        broken: counter.broken,
+    })
 }
 
 /// Returns the length in bytes of the longest list of fonts in the drawing. `usvg` parses this list
@@ -68,84 +71,86 @@ fn longest_font_list(document: &Document) -> u64 {
     named.chain(declared).map(str::len).max().unwrap_or(0) as u64
 }
 
-/// References to ids (`url(#id)`) that style sheets add to elements.
-struct StyleReferences<'d> {
-    /// Upper bound of the number of rules in all style sheets.
-    rules: usize,
-    /// Maps the last name of a selector (a class, an element or an id) to the ids that are referred
-    /// to by the rules with this selector.
-    references: HashMap<&'d str, Vec<&'d str>>,
+/// Finds the references of elements to others: those in attributes and those in style sheets.
+struct ElementReferences<'c, 's> {
+    cascade: &'c StyleCascade<'s>,
+    /// Ids in the values of custom properties, which any element with variables may refer to.
+    variable: Vec<String>,
 }
 
-impl<'d> StyleReferences<'d> {
-    /// Reads all style sheets of a document.
-    fn of(document: &'d Document) -> Self {
-        let mut sheet = Self {
-            rules: 1, // the one in STYLE
-            references: HashMap::new(),
-        };
+/// Kind of a reference.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum ReferenceKind {
+    /// The target is drawn once.
+    Once,
+    /// The target is drawn at each corner of the shapes in the element.
+    Marker,
+}
+
+impl<'c, 's> ElementReferences<'c, 's> {
+    fn new(document: &Document, cascade: &'c StyleCascade<'s>) -> Self {
         let styles = document
             .descendants()
-            .filter(|n| n.tag_name().name() == "style");
-        for text in styles.flat_map(|n| n.children()).filter_map(|n| n.text()) {
-            // This count is an upper bound, because declarations also contain commas.
-            sheet.rules += text.matches(['{', ',']).count();
-            sheet.read(text);
-        }
-        sheet
-    }
-
-    /// Adds the ids to which the rules of one style sheet refer.
-    fn read(&mut self, text: &'d str) {
-        for rule in text.split('}') {
-            let Some((selectors, body)) = rule.rsplit_once('{') else {
-                continue;
-            };
-            let ids: Vec<&str> = urls(body).collect();
-            if ids.is_empty() {
-                continue;
-            }
-            for selector in selectors.split(',') {
-                let name = last_name(selector);
-                self.references.entry(name).or_default().extend(&ids);
-            }
+            .filter_map(|node| node.attribute("style"));
+        let styles = styles.flat_map(|style| read_declarations(style).0);
+        let custom = styles.chain(cascade.custom_declarations().cloned());
+        let custom = custom.filter(|declaration| declaration.name.starts_with("--"));
+        Self {
+            cascade,
+            variable: custom
+                .flat_map(|d| urls(&d.value).map(str::to_owned).collect::<Vec<_>>())
+                .collect(),
         }
     }
 
-    /// Returns the ids that style sheets make an element refer to.
-    fn of_node<'s>(&'s self, node: Node<'s, '_>) -> impl Iterator<Item = &'d str> + 's {
-        let classes = node.attribute("class").unwrap_or_default();
-        classes
-            .split_whitespace()
-            .chain([node.tag_name().name(), "*"])
-            .chain(node.attribute("id"))
-            .filter_map(|name| self.references.get(name))
-            .flatten()
-            .copied()
+    /// Returns the ids that an element refers to.
+    fn of(&self, node: Node) -> Vec<(ReferenceKind, String)> {
+        let kind = |name: &str| match name.starts_with("marker") {
+            true => ReferenceKind::Marker,
+            false => ReferenceKind::Once,
+        };
+        let mut found = Vec::new();
+        // The `href` of a link or an image makes no copies.
+        let copies_href = matches!(
+            node.tag_name().name(),
+            "use" | "pattern" | "mask" | "clipPath"
+        );
+        for attribute in node.attributes() {
+            let value = attribute.value();
+            let is_href = copies_href && attribute.name() == "href";
+            let direct = is_href.then(|| value.trim().strip_prefix('#')).flatten();
+            let named = direct.into_iter().chain(urls(value));
+            found.extend(named.map(|id| (kind(attribute.name()), id.to_owned())));
+        }
+        for declaration in self.cascade.declarations(node) {
+            let named = urls(&declaration.value).map(|id| (kind(&declaration.name), id.to_owned()));
+            found.extend(named);
+            if has_references(&declaration.value) && !declaration.name.starts_with("--") {
+                let variable = self.variable.iter();
+                found.extend(variable.map(|id| (kind(&declaration.name), id.clone())));
+            }
+        }
+        // An element refers to each target once, by an attribute or by style.
+        found.sort_by(|(a, first), (b, second)| {
+            first
+                .cmp(second)
+                .then((*b == ReferenceKind::Marker).cmp(&(*a == ReferenceKind::Marker)))
+        });
+        found.dedup_by(|(_, a), (_, b)| a == b);
+        found
     }
 }
 
-/// Returns the last name of a selector (`thin` for `g > path.thin`), or `*` if the selector is too
-/// complex to look up.
-fn last_name(selector: &str) -> &str {
-    let selector = selector.trim();
-    if selector.contains([':', '\\']) {
-        return "*"; // pseudo-classes and escapes are assumed to match every element
-    }
-    let is_name_char = |c: char| c.is_alphanumeric() || c == '_' || c == '-' || !c.is_ascii();
-    let start = selector.rfind(|c| !is_name_char(c)).map_or(0, |i| i + 1);
-    match &selector[start..] {
-        "" => "*",
-        name => name,
-    }
-}
-
-/// Returns the ids in all `url(#id)` of a text.
-fn urls(text: &str) -> impl Iterator<Item = &str> {
-    text.split("url(").skip(1).filter_map(|rest| {
-        let id = rest.split(')').next()?;
-        id.trim_matches(|c: char| c.is_whitespace() || c == '"' || c == '\'')
-            .strip_prefix('#')
+/// Returns the ids in all `url(#…)` of a value.
+fn urls(value: &str) -> impl Iterator<Item = &str> {
+    let starts = value.match_indices('(').filter(|(at, _)| {
+        value.as_bytes()[..*at]
+            .last_chunk::<3>()
+            .is_some_and(|name| name.eq_ignore_ascii_case(b"url"))
+    });
+    starts.filter_map(|(at, _)| {
+        let inner = value[at + 1..].split(')').next()?;
+        inner.trim().trim_matches(['"', '\'']).strip_prefix('#')
     })
 }
 
@@ -158,36 +163,34 @@ struct ExpandedSize {
     levels: u32,
     /// Estimated time for laying out the text of the element, in microseconds.
     text: u64,
+    /// Upper bound of the number of corners of all shapes, at which markers are drawn.
+    corners: u64,
 }
 
 /// Counter of expanded sizes; computes the size of each element only once.
-struct ExpansionCounter<'d, 'a> {
+struct ExpansionCounter<'c, 's, 'd, 'a> {
     document: &'d Document<'a>,
     /// First element with each id.
-    ids: HashMap<&'d str, Node<'d, 'a>>,
-    sheet: StyleReferences<'d>,
+    ids: &'c HashMap<&'d str, Node<'d, 'a>>,
+    references: ElementReferences<'c, 's>,
     /// Sizes computed so far; `None` for elements in progress.
-    sizes: HashMap<usvg::roxmltree::NodeId, Option<ExpandedSize>>,
+    sizes: HashMap<NodeId, Option<ExpandedSize>>,
+    broken: BrokenReferences,
     /// Length in bytes of the longest list of fonts in the drawing.
     longest_font_list: u64,
 }
 
-impl<'d, 'a> ExpansionCounter<'d, 'a> {
+impl<'d, 'a> ExpansionCounter<'_, '_, 'd, 'a> {
     /// Returns the expanded size of an element with its children and the targets of its references.
-    /// Recurses at most [`MAX_DEPTH`] levels.
+    /// Recurses at most [`MAX_DEPTH`] levels. The element must not be in progress.
     fn expanded_size(&mut self, node: Node<'d, 'a>, depth: u32) -> Result<ExpandedSize, SvgError> {
         let document = self.document;
         let line = || document.text_pos_at(node.range().start).row;
         match self.sizes.get(&node.id()) {
-            Some(None) => return Err(SvgError::Circular(line())),
-            Some(Some(size)) if depth + size.levels > MAX_DEPTH => {
-                return Err(SvgError::TooDeep(line()));
-            }
-            Some(&Some(size)) => return Ok(size),
-            None if depth > MAX_DEPTH => return Err(SvgError::TooDeep(line())),
-            None => {}
+            Some(&Some(size)) if depth + size.levels <= MAX_DEPTH => return Ok(size),
+            None if depth <= MAX_DEPTH => {}
+            _ => return Err(SvgError::TooDeep(line())),
         }
-        // Reaching an element again while it is in progress means a circular reference.
         self.sizes.insert(node.id(), None);
         let mut size = ExpandedSize {
             elements: 1,
@@ -196,12 +199,31 @@ impl<'d, 'a> ExpansionCounter<'d, 'a> {
                 "text" => self.cost_of_text(node),
                 _ => 0,
             },
+            corners: corners(node),
         };
-        for part in self.parts(node) {
-            let inner = self.expanded_size(part, depth + 1)?;
-            size.elements = size.elements.saturating_add(inner.elements);
-            size.levels = size.levels.max(inner.levels + 1);
-            size.text = size.text.saturating_add(inner.text);
+        for child in node.children().filter(Node::is_element) {
+            let inner = self.expanded_size(child, depth + 1)?;
+            size.add(inner, 1);
+        }
+        for (kind, id) in self.references.of(node) {
+            let Some(target) = self.expanded_target(&id) else {
+                continue;
+            };
+            // Reaching an element again while it is in progress means a circular reference.
+            if self.sizes.get(&target.id()).is_some_and(Option::is_none) {
+                self.broken.insert((node.id(), target.id()));
+                continue;
+            }
+            let inner = self.expanded_size(target, depth + 1)?;
+            let corners = size.corners;
+            size.add(
+                inner,
+                if kind == ReferenceKind::Marker {
+                    corners
+                } else {
+                    1
+                },
+            );
         }
         if size.elements > MAX_ELEMENTS {
             return Err(SvgError::TooManyElements(line()));
@@ -220,31 +242,40 @@ impl<'d, 'a> ExpansionCounter<'d, 'a> {
         shaped.saturating_add(spans.saturating_mul(self.longest_font_list) / 10)
     }
 
-    /// Returns the child elements and the targets of all references of an element.
-    fn parts(&self, node: Node<'d, 'a>) -> Vec<Node<'d, 'a>> {
-        let mut parts: Vec<_> = node.children().filter(Node::is_element).collect();
-        // The `href` of a link or an image makes no copies.
-        let copies_href = matches!(
-            node.tag_name().name(),
-            "use" | "pattern" | "mask" | "clipPath"
-        );
-        for attribute in node.attributes() {
-            let value = attribute.value();
-            let is_href = copies_href && attribute.name() == "href";
-            let direct = is_href.then(|| value.trim().strip_prefix('#')).flatten();
-            let named = direct.into_iter().chain(urls(value));
-            parts.extend(named.filter_map(|id| self.reference(id)));
-        }
-        let styled = self.sheet.of_node(node);
-        parts.extend(styled.filter_map(|id| self.reference(id)));
-        parts
-    }
-
     /// Returns the element with an id, unless it is of a type that is never expanded.
-    fn reference(&self, id: &str) -> Option<Node<'d, 'a>> {
+    fn expanded_target(&self, id: &str) -> Option<Node<'d, 'a>> {
         let to = *self.ids.get(id)?;
-        // Gradients contain no drawn elements; markers and filters are disabled by STYLE.
-        let unexpanded = ["linearGradient", "radialGradient", "marker", "filter"];
+        // Gradients contain no drawn elements; filters are not drawn.
+        let unexpanded = ["linearGradient", "radialGradient", "filter"];
         (!unexpanded.contains(&to.tag_name().name())).then_some(to)
+    }
+}
+
+impl ExpandedSize {
+    /// Adds `count` copies of a part.
+    fn add(&mut self, part: Self, count: u64) {
+        let many = |n: u64| n.saturating_mul(count);
+        self.elements = self.elements.saturating_add(many(part.elements));
+        self.levels = self.levels.max(part.levels + 1);
+        self.text = self.text.saturating_add(many(part.text));
+        self.corners = self.corners.saturating_add(many(part.corners));
+    }
+}
+
+/// Returns an upper bound of the number of corners of one shape: half of the numbers in its
+/// coordinates.
+fn corners(node: Node) -> u64 {
+    let numbers = |name| {
+        let text = node.attribute(name).unwrap_or_default().as_bytes();
+        let starts = text
+            .windows(2)
+            .filter(|w| !w[0].is_ascii_digit() && w[1].is_ascii_digit());
+        starts.count() as u64
+    };
+    match node.tag_name().name() {
+        "path" => 2 + numbers("d"),
+        "polygon" | "polyline" => 2 + numbers("points") / 2,
+        "rect" | "circle" | "ellipse" | "line" => 9,
+        _ => 0,
     }
 }

@@ -32,8 +32,23 @@ pub(super) fn paint_layers(shapes: Vec<SvgShape>, page: DVec2) -> Vec<PaintLayer
         .collect()
 }
 
-/// Merges shapes of equal paint into as few shapes as their order allows. A merged shape has no
-/// name. `page` is the size of the drawing.
+/// Merges shapes of a drawing without colours into layers without paint, by their names. Returns no
+/// layers if no shape has a name.
+pub(super) fn uncoloured_layers(shapes: Vec<SvgShape>, page: DVec2) -> Vec<PaintLayer> {
+    if shapes.iter().all(|shape| shape.name.is_empty()) {
+        return Vec::new();
+    }
+    let shapes = shapes.into_iter().flat_map(SvgShape::split_stroke);
+    let layers = paint_layers(shapes.collect(), page).into_iter();
+    let uncoloured = layers.map(|layer| PaintLayer {
+        paint: None,
+        gradient: None,
+        ..layer
+    });
+    uncoloured.collect()
+}
+
+/// Merges shapes of equal paint and name into as few shapes as their order allows. `page` is the size of the drawing.
 pub(super) fn merge_shapes(shapes: Vec<SvgShape>, page: DVec2) -> Vec<SvgShape> {
     let mut stack = PaintStack {
         layers: Vec::new(),
@@ -45,7 +60,6 @@ pub(super) fn merge_shapes(shapes: Vec<SvgShape>, page: DVec2) -> Vec<SvgShape> 
         true => shape,
         false => SvgShape {
             rings: union([vec![shape.rings], more].concat()),
-            name: String::new(),
             ..shape
         },
     };
@@ -56,6 +70,7 @@ pub(super) fn merge_shapes(shapes: Vec<SvgShape>, page: DVec2) -> Vec<SvgShape> 
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct LayerKey {
     is_text: bool,
+    name: String,
     paint: PaintKey,
     gradient: Option<Vec<u64>>,
     /// Paint, width and join of the stroke along the outlines.
@@ -78,6 +93,7 @@ impl LayerKey {
         });
         Self {
             is_text: shape.is_text,
+            name: shape.name.clone(),
             paint: bits(shape.paint),
             gradient: shape.gradient.as_ref().map(gradient_bits),
             line,

@@ -1,31 +1,41 @@
-//! Converts SVG paints: solid colours, gradients, and patterns, which are replaced by their mean
-//! colour.
+//! Converts SVG paints: solid colours and gradients. Patterns are left to the painter.
 
 use crate::colour::{Gradient, GradientGeometry, GradientSpread, GradientStop, Paint, Rgb};
 use crate::geometry::{DAffine2, DMat2, DVec2};
-use usvg::{BaseGradient, Color, Group, Node, Opacity, Pattern, SpreadMethod, Transform};
+use usvg::{BaseGradient, Color, Opacity, Pattern, SpreadMethod, Transform};
 
 /// Converted paint of a fill or stroke.
-pub(super) struct ResolvedPaint {
-    /// Colour and opacity; for a gradient, its mean.
-    pub paint: Paint,
-    /// Gradient in the coordinates of the path; `None` for other paints.
-    pub gradient: Option<Gradient>,
-    /// Whether the paint is only the mean of a pattern or of a degenerate gradient.
-    pub is_mean: bool,
+pub(super) enum PaintSource<'t> {
+    Solid(Paint),
+    /// Gradient in the coordinates of the path, and its mean.
+    Gradient(Gradient, Paint),
+    /// Mean of a gradient that cannot be drawn, because its affine map is singular.
+    DegenerateGradient(Paint),
+    /// Pattern and its opacity.
+    Pattern(&'t Pattern, Opacity),
 }
 
 /// Converts the paint of a fill or stroke; returns `None` if it is fully transparent.
-pub(super) fn resolve_paint(paint: &usvg::Paint, opacity: Opacity) -> Option<ResolvedPaint> {
-    let (mean, gradient, is_mean) = match paint {
-        usvg::Paint::Color(colour) => (rgb(*colour).into(), None, false),
+pub(super) fn paint_source(paint: &usvg::Paint, opacity: Opacity) -> Option<PaintSource<'_>> {
+    let factor = f64::from(opacity.get());
+    let fade = |paint: Paint| Paint {
+        opacity: factor * paint.opacity,
+        ..paint
+    };
+    let gradient = match paint {
+        usvg::Paint::Color(colour) => {
+            let paint = fade(rgb(*colour).into());
+            return (paint.opacity > 0.0).then_some(PaintSource::Solid(paint));
+        }
+        usvg::Paint::Pattern(pattern) => {
+            return (factor > 0.0).then_some(PaintSource::Pattern(pattern, opacity));
+        }
         usvg::Paint::LinearGradient(gradient) => {
             let from = point(gradient.x1(), gradient.y1());
             let along = point(gradient.x2(), gradient.y2()) - from;
             let frame =
                 DAffine2::from_mat2_translation(DMat2::from_cols(along, along.perp()), from);
-            let gradient = convert_gradient(gradient, GradientGeometry::Linear, frame);
-            (gradient.mean(), Some(gradient), false)
+            convert_gradient(gradient, GradientGeometry::Linear, frame)
         }
         usvg::Paint::RadialGradient(gradient) => {
             let radius = f64::from(gradient.r().get());
@@ -36,31 +46,15 @@ pub(super) fn resolve_paint(paint: &usvg::Paint, opacity: Opacity) -> Option<Res
                 inner: f64::from(gradient.fr().get()) / radius,
             };
             let frame = DAffine2::from_scale_angle_translation(DVec2::splat(radius), 0.0, centre);
-            let gradient = convert_gradient(gradient, geometry, frame);
-            (gradient.mean(), Some(gradient), false)
+            convert_gradient(gradient, geometry, frame)
         }
-        usvg::Paint::Pattern(pattern) => (pattern_mean(pattern)?, None, true),
     };
-    let factor = f64::from(opacity.get());
-    let fade = |paint: Paint| Paint {
-        opacity: factor * paint.opacity,
-        ..paint
-    };
-    let paint = fade(mean);
-    // A gradient whose affine map `frame` is singular cannot be drawn and is replaced by its mean.
-    let is_invertible = |gradient: &Gradient| {
-        let determinant = gradient.frame.matrix2.determinant();
-        determinant.is_finite() && determinant != 0.0
-    };
-    let is_mean = is_mean
-        || gradient
-            .as_ref()
-            .is_some_and(|gradient| !is_invertible(gradient));
-    let gradient = gradient.filter(is_invertible);
-    (paint.opacity > 0.0).then(|| ResolvedPaint {
-        paint,
-        gradient: gradient.map(|gradient| gradient.map_paints(fade)),
-        is_mean,
+    let mean = fade(gradient.mean());
+    let determinant = gradient.frame.matrix2.determinant();
+    let is_drawable = determinant.is_finite() && determinant != 0.0;
+    (mean.opacity > 0.0).then(|| match is_drawable {
+        true => PaintSource::Gradient(gradient.map_paints(fade), mean),
+        false => PaintSource::DegenerateGradient(mean),
     })
 }
 
@@ -102,31 +96,4 @@ pub(super) fn affine(t: Transform) -> DAffine2 {
 
 fn rgb(colour: Color) -> Rgb {
     Rgb([colour.red, colour.green, colour.blue])
-}
-
-/// Returns the mean paint of the filled shapes in a pattern, all with the same weight; `None` if
-/// nothing is visible.
-fn pattern_mean(pattern: &Pattern) -> Option<Paint> {
-    let mut paints = Vec::new();
-    collect_fills(pattern.root(), &mut paints);
-    let paints = paints.into_iter().map(|paint| (paint, 1.0));
-    Some(Paint::mean(paints)).filter(|paint| paint.opacity > 0.0)
-}
-
-/// Appends the paints of all fills in a group.
-fn collect_fills(group: &Group, paints: &mut Vec<Paint>) {
-    for node in group.children() {
-        match node {
-            Node::Group(inner) => collect_fills(inner, paints),
-            Node::Path(path) => {
-                let fill = path.fill().and_then(|fill| match fill.paint() {
-                    // Nested patterns are ignored because they could recurse endlessly.
-                    usvg::Paint::Pattern(_) => None,
-                    paint => resolve_paint(paint, fill.opacity()),
-                });
-                paints.extend(fill.map(|tone| tone.paint));
-            }
-            Node::Image(_) | Node::Text(_) => {}
-        }
-    }
 }

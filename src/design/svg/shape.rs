@@ -19,7 +19,7 @@ pub(super) struct SvgShape {
     pub is_text: bool,
     /// Stroke along `rings`, if it is attached to this shape instead of being a shape itself.
     pub stroke: Option<ShapeStroke>,
-    /// Id of the SVG element; empty if it has none or several shapes were merged.
+    /// Name of the SVG element or of the innermost named group around it; empty if there is none.
     pub name: String,
 }
 

@@ -3,7 +3,7 @@
 use super::ink_layers::WindingRings;
 use crate::colour::{Paint, StrokeJoin, StrokeStyle};
 use crate::geometry::DVec2;
-use usvg::{LineJoin, Path, tiny_skia_path};
+use usvg::{LineJoin, Path, Transform, tiny_skia_path};
 
 /// Stroke along the rings of a shape.
 pub(super) struct ShapeStroke {
@@ -27,19 +27,16 @@ pub(super) fn is_closed(path: &Path) -> bool {
     !is_open
 }
 
-/// Returns the stroke of a path in page units, or `None` if the path has no stroke, the stroke has
+/// Returns the stroke of a path in page units, where `t` maps the path to the page, or `None` if the path has no stroke, the stroke has
 /// dashes, or the transform makes the width depend on the direction.
-pub(super) fn uniform_stroke(path: &Path, paint: Paint) -> Option<StrokeStyle> {
+pub(super) fn uniform_stroke(path: &Path, t: Transform, paint: Paint) -> Option<StrokeStyle> {
     let stroke = path
         .stroke()
         .filter(|stroke| stroke.dasharray().is_none())?;
-    let [x, y] = {
-        let t = path.abs_transform();
-        [
-            DVec2::new(t.sx.into(), t.ky.into()),
-            DVec2::new(t.kx.into(), t.sy.into()),
-        ]
-    };
+    let [x, y] = [
+        DVec2::new(t.sx.into(), t.ky.into()),
+        DVec2::new(t.kx.into(), t.sy.into()),
+    ];
     let scale = x.length();
     let is_similarity = (y.length() - scale).abs() < MAX_DISTORTION * scale
         && x.dot(y).abs() < MAX_DISTORTION * scale * scale;

@@ -3,7 +3,6 @@
 
 use super::*;
 use crate::colour::{Paint, Rgb};
-use crate::design::note::ImportNote;
 use crate::geometry::Regions;
 use std::time::{Duration, Instant};
 
@@ -123,7 +122,6 @@ fn invisible_shapes_are_ignored() {
         r#"<g opacity="0"><rect width="9" height="9"/></g>"#,
         r#"<text y="20"> </text>"#,
         r#"<image href="/etc/passwd" width="9" height="9"/>"#,
-        r#"<image href="data:image/svg+xml;base64,PHN2ZyB4bWxucz0iaHR0cDovL3d3dy53My5vcmcvMjAwMC9zdmciIHdpZHRoPSI5IiBoZWlnaHQ9IjkiPjxyZWN0IHdpZHRoPSI5IiBoZWlnaHQ9IjkiLz48L3N2Zz4=" width="9" height="9"/>"#,
     ];
     for body in nothing {
         let error = read_body(body).expect_err(body);
@@ -139,12 +137,36 @@ fn invisible_shapes_are_ignored() {
 }
 
 #[test]
-fn an_ignored_mask_is_reported() {
-    let body = r##"<mask id="m"><rect width="9" height="9" fill="white"/></mask>
-        <rect width="50" height="50" mask="url(#m)"/>"##;
+fn masks_cut_by_luminance_and_alpha() {
+    let shapes = r#"<rect width="40" height="40" fill="white"/>
+        <rect width="10" height="10" fill="black"/>"#;
+    let masked = |attributes: &str| {
+        let body = format!(
+            r##"<mask id="m" maskUnits="userSpaceOnUse" x="0" y="0" width="100" height="100"
+            {attributes}>{shapes}</mask><rect width="50" height="50" fill="red" mask="url(#m)"/>"##
+        );
+        let found = stroked(&body, None).expect("an outline");
+        assert_eq!(found.notes, []);
+        found.regions.area()
+    };
+    assert_near(masked(""), 1600.0 - 100.0);
+    assert_near(masked(r#"style="mask-type: alpha""#), 1600.0);
+}
+
+#[test]
+fn a_soft_mask_is_replaced_by_its_mean_and_reported() {
+    let body = r##"<linearGradient id="g"><stop stop-color="white"/><stop offset="1"/></linearGradient>
+        <mask id="m"><rect width="50" height="50" fill="url(#g)"/></mask>
+        <rect id="a" width="50" height="50" fill="red" mask="url(#m)"/>"##;
     let found = stroked(body, None).expect("an outline");
     assert_near(found.regions.area(), 2500.0);
-    assert_eq!(found.notes, [ImportNote::Masks(1)]);
+    let opacity = found.paint_layers[0].paint.expect("a colour").opacity;
+    assert!((0.1..0.7).contains(&opacity), "{opacity}");
+    let note = found.notes[0].to_string();
+    assert_eq!(
+        note,
+        "mask with a gradient: replaced by its mean opacity (#a)"
+    );
 }
 
 /// Builds a drawing of `levels` groups. Each group has `copies` references to the previous group.
@@ -190,7 +212,7 @@ fn nested_patterns_clips_masks_and_styles_do_not_hang() {
         for level in 1..14 {
             let inner = level - 1;
             let paint = if style {
-                sheet += &format!("g rect.c{inner} {{ fill : url( '#p{inner}' ) }}");
+                sheet += &format!("svg rect.c{inner} {{ fill : url( '#p{inner}' ) }}");
                 format!(r#"class="a c{inner}""#)
             } else {
                 format!(r#"style="fill:url(#p{inner})""#)
@@ -227,7 +249,7 @@ fn nested_patterns_clips_masks_and_styles_do_not_hang() {
 }
 
 #[test]
-fn markers_are_ignored_however_they_are_set() {
+fn nested_markers_do_not_hang() {
     let mut body = String::from(
         r#"<marker id="m0" markerWidth="3" markerHeight="3"><path d="M0 0h9v9z"/></marker>"#,
     );
@@ -238,22 +260,39 @@ fn markers_are_ignored_however_they_are_set() {
             " l1 1".repeat(20)
         );
     }
-    let shape = |attribute: &str| {
-        format!(
-            r##"{body}<style>.m {{ marker: url(#m13) !important }}</style>
-        <g {attribute}><path stroke="red" d="M0 0h10v10h-10z"/></g>"##
-        )
-    };
     for attribute in [
         r##"marker-mid="url(#m13)""##,
         r##"style="marker:url(#m13) !important""##,
         r#"class="m""#,
     ] {
-        assert_near(
-            without_strokes(&shape(attribute)).expect(attribute).area(),
-            100.0,
+        let shape = format!(
+            r##"{body}<style>.m {{ marker: url(#m13) !important }}</style>
+        <g {attribute}><path stroke="red" d="M0 0h10v10h-10z"/></g>"##
         );
+        let error = refused_quickly(&shape);
+        assert!(matches!(error, SvgError::TooManyElements(_)), "{error}");
     }
+}
+
+#[test]
+fn markers_are_drawn_as_shapes() {
+    let body = r##"<marker id="m" markerWidth="4" markerHeight="4" refX="2" refY="2" orient="auto">
+        <rect width="4" height="4" fill="red"/></marker>
+        <path d="M10 50h30" stroke="black" stroke-width="2" marker-end="url(#m)"/>"##;
+    let found = stroked(body, None).expect("an outline");
+    // The marker is scaled by the width of the stroke and covers the last four units of the line.
+    assert_near(found.regions.area(), 2.0 * 26.0 + 64.0);
+    assert_eq!(found.paint_layers.len(), 2);
+}
+
+#[test]
+fn embedded_drawings_are_drawn_and_embedded_pictures_are_reported() {
+    let body = r#"<image x="10" y="10" width="9" height="9" href="data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' width='9' height='9'%3E%3Cstyle%3E.a%7Bfill:rebeccapurple%7D%3C/style%3E%3Crect class='a' width='9' height='3'/%3E%3C/svg%3E"/>
+        <image id="photo" width="9" height="9" href="data:image/png;base64,AAAA"/>"#;
+    let found = stroked(body, None).expect("an outline");
+    assert_near(found.regions.area(), 27.0);
+    let notes: Vec<_> = found.notes.iter().map(ToString::to_string).collect();
+    assert_eq!(notes, ["picture in the drawing: ignored (#photo)"]);
 }
 
 #[test]
@@ -294,9 +333,21 @@ fn the_depth_limit_prevents_stack_overflow() {
 }
 
 #[test]
-fn circular_references_are_reported() {
-    let body = r##"<g id="a"><use href="#b"/></g><g id="b"><use href="#a"/></g>"##;
-    assert!(matches!(read_body(body), Err(SvgError::Circular(1))));
+fn circular_references_are_ignored_and_reported() {
+    let body = r##"<g id="a"><use id="u" href="#b"/><rect width="5" height="5"/></g>
+        <g id="b"><use id="v" href="#a"/></g>
+        <pattern id="p" width="9" height="9"><rect id="q" width="9" height="9" fill="url(#p)"/></pattern>
+        <rect x="50" width="9" height="9" fill="url(#p)"/>"##;
+    let found = stroked(body, None).expect("an outline");
+    assert_near(found.regions.area(), 25.0);
+    let notes: Vec<_> = found.notes.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        notes,
+        [
+            "fill that refers to itself: ignored (#q)",
+            "use of itself: ignored (#v)"
+        ]
+    );
     // The `href` of a link makes no copies, so it may refer to its own group.
     assert_near(
         regions(r##"<g id="a"><a href="#a"><rect width="9" height="9"/></a></g>"##).area(),
@@ -306,10 +357,21 @@ fn circular_references_are_reported() {
 
 #[test]
 fn a_style_sheet_of_many_rules_does_not_hang() {
-    let sheet: String = (0..20_000).map(|k| format!(".c{k}{{fill:red}}")).collect();
-    let body = format!("<style>{sheet}</style>{}", "<g/>".repeat(20_000));
+    let sheet = |selector: &str| {
+        let rules = (0..20_000).map(|k| format!("{selector}.c{k}{{fill:red}}"));
+        let rules = rules.collect::<String>();
+        format!("<style>{rules}</style>{}", "<g/>".repeat(20_000))
+    };
     assert!(matches!(
-        refused_quickly(&body),
+        refused_quickly(&sheet("")),
+        SvgError::NothingFilled { .. }
+    ));
+    assert!(matches!(
+        refused_quickly(&sheet("g:not(.a) ")),
+        SvgError::NothingFilled { .. }
+    ));
+    assert!(matches!(
+        refused_quickly(&sheet("g, g:not(.a)")),
         SvgError::TooMuchStyle { .. }
     ));
 }
@@ -530,7 +592,7 @@ fn layers_keep_strokes_opacity_and_order() {
 }
 
 #[test]
-fn patterns_become_their_mean_colour_and_gradients_stay() {
+fn patterns_and_gradients_stay() {
     let body = r##"<linearGradient id="g"><stop offset="0.5" stop-color="#000"/>
         <stop offset="0.5" stop-color="#fff"/></linearGradient>
         <pattern id="p" width="2" height="2" patternUnits="userSpaceOnUse">
@@ -543,7 +605,10 @@ fn patterns_become_their_mean_colour_and_gradients_stay() {
     let mean = paint([99; 3], 1.0);
     assert_eq!(paints, [mean, paint([0, 255, 0], 1.0), mean]);
     let found = stroked(body, None).expect("a drawing");
-    assert_eq!(found.notes, [ImportNote::MeanColours(2)]);
+    assert_eq!(found.notes, []);
+    // Ten by ten tiles, a quarter of each of which is painted.
+    assert_near(found.paint_layers[1].regions.area(), 100.0);
+    assert!(found.paint_layers[2].gradient.is_some());
     let gradient = found.paint_layers[0].gradient.as_ref().expect("a gradient");
     assert_eq!(gradient.stops.len(), 2);
     // The gradient runs from the left to the right edge of the square, in page coordinates.

@@ -1,0 +1,322 @@
+//! Rewrites a drawing with plain attributes, in the subset of SVG that `usvg` draws as browsers do.
+//!
+//! Style sheets, style attributes, variables, CSS transforms and geometry properties become
+//! attributes; copies (`use`) are expanded, so that every drawn element keeps its identity; symbols
+//! become nested drawings. Ids are replaced by the numbers of the elements in the source document
+//! (see [`plain_id`]). Everything that the result lacks is reported.
+
+mod attributes;
+mod copies;
+mod element_style;
+mod kinds;
+
+use super::css::cascade::StyleCascade;
+use super::css::math::LengthContext;
+use super::css::variables::Variables;
+use super::error::{MAX_ELEMENTS, SvgError};
+use super::expansion_limits::BrokenReferences;
+use super::notes::{LostFeatures, element_label};
+use crate::geometry::{Bounds, DVec2};
+use element_style::ElementStyle;
+use kinds::ElementKind;
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::rc::Rc;
+use usvg::roxmltree::{Document, Node, NodeId};
+
+/// Maximum length of the rewritten drawing, in bytes (resource limit: some 500 bytes for each of
+/// the largest number of elements).
+const MAX_TEXT: usize = 100_000_000;
+
+/// Font size of browsers for text without one, in user units.
+const DEFAULT_FONT_SIZE: f64 = 16.0;
+
+/// Size of the page of a drawing that gives none (CSS 2, section 10.3.2).
+const DEFAULT_PAGE: DVec2 = DVec2::new(300.0, 150.0);
+
+/// Drawing with plain attributes.
+pub(super) struct PlainDrawing {
+    /// XML text.
+    pub text: String,
+    /// Elements whose strokes keep their width when the drawing is scaled.
+    pub non_scaling: HashSet<NodeId>,
+    /// Whether the transform of an element refers to its own box, which is not known yet.
+    pub lacks_boxes: bool,
+}
+
+/// Boxes of elements in their own coordinates, which some transforms and clip paths refer to.
+pub(super) type ElementBoxes = HashMap<NodeId, Bounds>;
+
+/// Sources from which a drawing is rewritten.
+pub(super) struct PlainSources<'s, 'c, 'd, 'a> {
+    pub document: &'d Document<'a>,
+    /// First element with each id.
+    pub ids: &'s HashMap<&'d str, Node<'d, 'a>>,
+    pub cascade: &'s StyleCascade<'c>,
+    /// References that make an element refer to itself.
+    pub broken: &'s BrokenReferences,
+    /// Boxes measured so far.
+    pub boxes: &'s ElementBoxes,
+}
+
+/// Rewrites a drawing.
+///
+/// # Errors
+/// Returns an error if copies expand into too many elements or the style sheet takes too long.
+pub(super) fn plain_drawing(
+    sources: &PlainSources,
+    lost: &mut LostFeatures,
+) -> Result<PlainDrawing, SvgError> {
+    let mut writer = PlainWriter {
+        sources,
+        lost,
+        drawing: PlainDrawing {
+            text: String::new(),
+            non_scaling: HashSet::new(),
+            lacks_boxes: false,
+        },
+        definitions: String::new(),
+        copies: HashMap::new(),
+        open_copies: Vec::new(),
+        elements: 0,
+        cached_styles: HashMap::new(),
+    };
+    let root = sources.document.root_element();
+    writer.element(root, &InheritedStyle::initial(root), &Overrides::default())?;
+    if sources.cascade.is_exhausted() {
+        return Err(SvgError::TooMuchStyle(writer.elements as usize));
+    }
+    Ok(writer.drawing)
+}
+
+/// Returns the id of a copy of an element in the plain drawing. The original is copy 0.
+fn plain_id(element: NodeId, copy: u32) -> String {
+    match copy {
+        0 => format!("n{}", element.get()),
+        copy => format!("n{}-{copy}", element.get()),
+    }
+}
+
+/// Returns the element of the source document that an id of the plain drawing belongs to.
+pub(super) fn source_element(id: &str) -> Option<NodeId> {
+    let number = id.strip_prefix('n')?;
+    let number = number.split('-').next()?;
+    number.parse().ok().map(NodeId::new)
+}
+
+/// Values that an element inherits from its surroundings.
+#[derive(Clone)]
+struct InheritedStyle {
+    variables: Variables,
+    lengths: LengthContext,
+    /// Value of `color`.
+    colour: String,
+    /// Value of `text-transform`.
+    text_transform: String,
+    is_in_clip_path: bool,
+    is_in_text: bool,
+    /// Number of the copy (`use`) that the element belongs to; 0 outside of copies.
+    copy: u32,
+}
+
+impl InheritedStyle {
+    /// Returns the values outside of the root element.
+    fn initial(root: Node) -> Self {
+        let page = page_size(root);
+        Self {
+            variables: Rc::new(BTreeMap::new()),
+            lengths: LengthContext {
+                font_size: DEFAULT_FONT_SIZE,
+                root_font_size: DEFAULT_FONT_SIZE,
+                viewport: page,
+                page,
+            },
+            colour: "black".to_owned(),
+            text_transform: String::new(),
+            is_in_clip_path: false,
+            is_in_text: false,
+            copy: 0,
+        }
+    }
+}
+
+/// Returns the size of the page of a drawing: that of its view box, or its width and height.
+fn page_size(root: Node) -> DVec2 {
+    let length = |name| {
+        let text = root.attribute(name).unwrap_or_default();
+        let number = text.trim().trim_end_matches("px").parse::<f64>().ok();
+        number.filter(|number| *number > 0.0 && number.is_finite())
+    };
+    view_box_size(root).unwrap_or(DVec2::new(
+        length("width").unwrap_or(DEFAULT_PAGE.x),
+        length("height").unwrap_or(DEFAULT_PAGE.y),
+    ))
+}
+
+/// Returns the width and height of the view box of an element.
+fn view_box_size(node: Node) -> Option<DVec2> {
+    let numbers = node.attribute("viewBox")?;
+    let numbers = numbers
+        .split([' ', ',', '\n', '\t', '\r'])
+        .filter(|part| !part.is_empty());
+    let numbers: Vec<f64> = numbers.filter_map(|part| part.parse().ok()).collect();
+    match numbers.as_slice() {
+        &[_, _, w, h] if w > 0.0 && h > 0.0 && (w + h).is_finite() => Some(DVec2::new(w, h)),
+        _ => None,
+    }
+}
+
+/// Attributes that replace those of an element in a copy.
+#[derive(Default)]
+struct Overrides {
+    /// Name under which the element is written, if not its own.
+    tag: Option<&'static str>,
+    /// Attributes with their values; empty values remove the attribute.
+    attributes: Vec<(&'static str, String)>,
+}
+
+impl Overrides {
+    fn get(&self, name: &str) -> Option<&str> {
+        let mut attributes = self.attributes.iter();
+        let found = attributes.find(|(known, _)| *known == name);
+        found.map(|(_, value)| value.as_str())
+    }
+}
+
+/// Writer of a plain drawing.
+struct PlainWriter<'p, 'c, 'd, 'a> {
+    sources: &'p PlainSources<'p, 'c, 'd, 'a>,
+    lost: &'p mut LostFeatures,
+    drawing: PlainDrawing,
+    /// Elements that the drawing refers to and the source does not have.
+    definitions: String,
+    /// Number of copies written of each element.
+    copies: HashMap<NodeId, u32>,
+    /// Copies in progress.
+    open_copies: Vec<NodeId>,
+    /// Number of elements written.
+    elements: u64,
+    cached_styles: HashMap<NodeId, Rc<[super::css::syntax::Declaration]>>,
+}
+
+impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
+    /// Writes an element with its content.
+    fn element(
+        &mut self,
+        node: Node<'d, 'a>,
+        inherited: &InheritedStyle,
+        overrides: &Overrides,
+    ) -> Result<(), SvgError> {
+        let name = node.tag_name().name();
+        match ElementKind::of(node) {
+            ElementKind::Drawn => {}
+            ElementKind::Copy if inherited.is_in_clip_path => {}
+            ElementKind::Copy => return self.copy(node, inherited),
+            ElementKind::Invisible => return Ok(()),
+            ElementKind::Animation => {
+                // The element that is animated carries the note.
+                let target = node.parent_element().unwrap_or(node);
+                self.lost.ignore("animation", &element_label(target));
+                return Ok(());
+            }
+            ElementKind::Unsupported => {
+                if !kinds::has_fallback(node) {
+                    self.lost.ignore(name, &element_label(node));
+                }
+                return Ok(());
+            }
+        }
+        self.count(node)?;
+        let tag = overrides
+            .tag
+            .unwrap_or(if name == "a" && !inherited.is_in_text {
+                "g"
+            } else {
+                name
+            });
+        let style = ElementStyle::of(self, node, inherited, overrides);
+        let is_root = node.parent_element().is_none();
+        self.open_tag(node, tag, &style, inherited, overrides, is_root);
+        let content = style.inherited_by_content(node, tag, inherited, overrides);
+        self.content(node, &content)?;
+        if is_root && !self.definitions.is_empty() {
+            let definitions = std::mem::take(&mut self.definitions);
+            self.drawing.text += &format!("<defs>{definitions}</defs>");
+        }
+        self.close_tag(tag);
+        Ok(())
+    }
+
+    /// Writes the children of an element.
+    fn content(&mut self, node: Node<'d, 'a>, inherited: &InheritedStyle) -> Result<(), SvgError> {
+        for child in node.children() {
+            if child.is_element() {
+                self.element(child, inherited, &Overrides::default())?;
+            } else if let (true, Some(text)) =
+                (inherited.is_in_text && child.is_text(), child.text())
+            {
+                let text = transformed_text(text, &inherited.text_transform);
+                push_escaped(&mut self.drawing.text, &text);
+            }
+        }
+        Ok(())
+    }
+
+    /// Counts an element against the limits.
+    fn count(&mut self, node: Node) -> Result<(), SvgError> {
+        self.elements += 1;
+        match self.elements > MAX_ELEMENTS || self.drawing.text.len() > MAX_TEXT {
+            true => {
+                let position = node.document().text_pos_at(node.range().start);
+                Err(SvgError::TooManyElements(position.row))
+            }
+            false => Ok(()),
+        }
+    }
+
+    fn close_tag(&mut self, tag: &str) {
+        self.drawing.text += &format!("</{tag}>");
+    }
+
+    /// Returns the declarations that apply to an element, in ascending precedence.
+    fn declarations(&mut self, node: Node) -> Rc<[super::css::syntax::Declaration]> {
+        let cascade = self.sources.cascade;
+        let cached = self.cached_styles.entry(node.id());
+        Rc::clone(cached.or_insert_with(|| cascade.declarations(node).into()))
+    }
+}
+
+/// Applies `text-transform` to a text.
+fn transformed_text(text: &str, transform: &str) -> String {
+    match transform {
+        "uppercase" => text.to_uppercase(),
+        "lowercase" => text.to_lowercase(),
+        "capitalize" => {
+            let mut is_start = true;
+            let capital = |c: char| {
+                let upper = std::mem::replace(&mut is_start, c.is_whitespace());
+                match upper {
+                    true => c.to_uppercase().collect::<String>(),
+                    false => c.to_string(),
+                }
+            };
+            text.chars().map(capital).collect()
+        }
+        _ => text.to_owned(),
+    }
+}
+
+/// Appends a text to an XML document.
+fn push_escaped(out: &mut String, text: &str) {
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\n' => out.push_str("&#10;"),
+            '\r' => out.push_str("&#13;"),
+            '\t' => out.push_str("&#9;"),
+            c => out.push(c),
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Expands copies (`use`) into groups, and symbols into nested drawings (SVG 2, section 5.5).
+
+use super::attributes::href;
+use super::element_style::ElementStyle;
+use super::kinds::ElementKind;
+use super::{InheritedStyle, Overrides, PlainWriter, view_box_size};
+use crate::design::svg::css::math::{PercentageBasis, evaluate};
+use crate::design::svg::error::SvgError;
+use crate::design::svg::notes::element_label;
+use usvg::roxmltree::Node;
+
+impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
+    /// Writes a copy of the element that `node` refers to.
+    pub(super) fn copy(
+        &mut self,
+        node: Node<'d, 'a>,
+        inherited: &InheritedStyle,
+    ) -> Result<(), SvgError> {
+        let reference = href(node).unwrap_or_default().trim();
+        let Some(target) = reference
+            .strip_prefix('#')
+            .and_then(|id| self.sources.ids.get(id))
+        else {
+            if !reference.is_empty() && !reference.starts_with('#') {
+                self.lost
+                    .ignore("use of another file", &element_label(node));
+            }
+            return Ok(());
+        };
+        let target = *target;
+        let is_circular = self.open_copies.contains(&target.id())
+            || self.sources.broken.contains(&(node.id(), target.id()))
+            || node.ancestors().any(|outer| outer == target);
+        if is_circular {
+            self.lost.ignore("use of itself", &element_label(node));
+            return Ok(());
+        }
+        if !matches!(
+            ElementKind::of(target),
+            ElementKind::Drawn | ElementKind::Copy
+        ) {
+            return Ok(());
+        }
+        self.count(node)?;
+        // Copies of elements that take paints from the copy are left to `usvg`.
+        let is_expanded = !takes_context_paint(target);
+        let style = ElementStyle::of(self, node, inherited, &Overrides::default());
+        if !is_expanded {
+            self.open_tag(node, "use", &style, inherited, &Overrides::default(), false);
+            self.close_tag("use");
+            return Ok(());
+        }
+        let without_place = Overrides {
+            tag: Some("g"),
+            attributes: vec![("href", String::new())],
+        };
+        let mut style = style;
+        let size =
+            ["width", "height"].map(|name| style.values.remove(name).map(|value| value.text));
+        let place = [
+            ("x", PercentageBasis::Width),
+            ("y", PercentageBasis::Height),
+        ]
+        .map(|(name, basis)| {
+            let text = style
+                .values
+                .remove(name)
+                .map_or(String::new(), |value| value.text);
+            evaluate(&text, &style.lengths, basis).map_or(0.0, |found| found.value)
+        });
+        self.open_tag(node, "g", &style, inherited, &without_place, false);
+        let number = self.copies.entry(target.id()).or_default();
+        *number += 1;
+        let content = InheritedStyle {
+            copy: *number,
+            ..style.inherited_by_content(node, "g", inherited, &without_place)
+        };
+        if place != [0.0; 2] {
+            self.drawing.text += &format!("<g transform=\"translate({} {})\">", place[0], place[1]);
+        }
+        self.open_copies.push(target.id());
+        let written = self.copied(target, &content, &size);
+        self.open_copies.pop();
+        written?;
+        if place != [0.0; 2] {
+            self.close_tag("g");
+        }
+        self.close_tag("g");
+        Ok(())
+    }
+
+    /// Writes the copied element. `size` is the width and height of the copy, if given.
+    fn copied(
+        &mut self,
+        target: Node<'d, 'a>,
+        inherited: &InheritedStyle,
+        size: &[Option<String>; 2],
+    ) -> Result<(), SvgError> {
+        let mut overrides = Overrides::default();
+        for (name, value) in ["width", "height"].into_iter().zip(size) {
+            if let Some(value) = value.as_ref().filter(|value| !value.is_empty()) {
+                overrides.attributes.push((name, value.clone()));
+            }
+        }
+        match target.tag_name().name() {
+            "symbol" => self.symbol(target, inherited, overrides),
+            "svg" => self.element(target, inherited, &overrides),
+            _ => self.element(target, inherited, &Overrides::default()),
+        }
+    }
+
+    /// Writes a symbol as a nested drawing.
+    fn symbol(
+        &mut self,
+        symbol: Node<'d, 'a>,
+        inherited: &InheritedStyle,
+        mut overrides: Overrides,
+    ) -> Result<(), SvgError> {
+        self.count(symbol)?;
+        let style = ElementStyle::of(self, symbol, inherited, &overrides);
+        for name in ["width", "height"] {
+            let is_set = |name: &str| style.values.get(name).is_some_and(|v| !v.text.is_empty());
+            if overrides.get(name).is_none() && !is_set(name) {
+                overrides.attributes.push((name, "100%".to_owned()));
+            }
+        }
+        overrides
+            .attributes
+            .extend([("refX", String::new()), ("refY", String::new())]);
+        self.open_tag(symbol, "svg", &style, inherited, &overrides, false);
+        let content = style.inherited_by_content(symbol, "svg", inherited, &overrides);
+        let reference = self.reference_point(symbol, &content);
+        if let Some([x, y]) = reference {
+            self.drawing.text += &format!("<g transform=\"translate({} {})\">", -x, -y);
+        }
+        self.content(symbol, &content)?;
+        if reference.is_some() {
+            self.close_tag("g");
+        }
+        self.close_tag("svg");
+        Ok(())
+    }
+
+    /// Returns the point of a symbol that lies at the place of its copies, if it gives one.
+    fn reference_point(&self, symbol: Node, content: &InheritedStyle) -> Option<[f64; 2]> {
+        let axes = [
+            ("refX", PercentageBasis::Width),
+            ("refY", PercentageBasis::Height),
+        ];
+        let is_given = axes.iter().any(|(name, _)| symbol.has_attribute(*name));
+        let corner = view_box_corner(symbol);
+        let point = |(i, (name, basis)): (usize, (&str, PercentageBasis))| {
+            let text = symbol.attribute(name)?;
+            let text = match text.trim() {
+                "left" | "top" => "0%",
+                "center" => "50%",
+                "right" | "bottom" => "100%",
+                text => text,
+            };
+            let found = evaluate(text, &content.lengths, basis)?;
+            // Keywords and percentages count from the corner of the view box.
+            let from = if text.ends_with('%') { corner[i] } else { 0.0 };
+            Some(from + found.value)
+        };
+        let [x, y] = axes;
+        is_given.then(|| [point((0, x)).unwrap_or(0.0), point((1, y)).unwrap_or(0.0)])
+    }
+}
+
+/// Returns the corner of the view box of an element.
+fn view_box_corner(node: Node) -> [f64; 2] {
+    let numbers = node.attribute("viewBox").unwrap_or_default();
+    let numbers = numbers
+        .split([' ', ','])
+        .filter_map(|part| part.trim().parse().ok());
+    let numbers: Vec<f64> = numbers.collect();
+    match (view_box_size(node), numbers.as_slice()) {
+        (Some(_), &[x, y, ..]) => [x, y],
+        _ => [0.0; 2],
+    }
+}
+
+/// Returns whether an element or its content takes its paint from the copy or marker it is in.
+fn takes_context_paint(target: Node) -> bool {
+    let elements = target.descendants().flat_map(|node| node.attributes());
+    let mut values = elements.map(|attribute| attribute.value());
+    values.any(|value| value.contains("context-fill") || value.contains("context-stroke"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{plain_id, source_element};
+
+    #[test]
+    fn ids_of_copies_lead_back_to_their_element() {
+        let text = "<svg><rect id='a'/></svg>";
+        let document = usvg::roxmltree::Document::parse(text).expect("well-formed");
+        let rect = document
+            .descendants()
+            .find(|n| n.has_tag_name("rect"))
+            .expect("a rectangle");
+        for copy in [0, 1, 12] {
+            let id = plain_id(rect.id(), copy);
+            assert_eq!(source_element(&id), Some(rect.id()));
+        }
+    }
+}
