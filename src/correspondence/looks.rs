@@ -3,6 +3,7 @@
 
 use crate::colour::Paint;
 use crate::geometry::Side;
+use std::collections::HashSet;
 
 /// Appearance of one part.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,9 +34,10 @@ const PAINT_COST: f64 = 0.5;
 /// (heuristic).
 const HEIGHT_COST: f64 = 0.25;
 
-/// Reduction of the pairing cost for two parts with the same name (heuristic: it exceeds any other
-/// single term of the cost in practice).
-const NAME_BONUS: f64 = 4.0;
+/// Reduction of the pairing cost for two parts with the same name (derived: all other terms of a
+/// pair add up to less than 100, and a design has fewer than 10,000 parts, so no other saving
+/// outweighs a pair of equal names; rounding errors of sums this large are below 1e-9).
+const NAME_BONUS: f64 = 1e6;
 
 /// Additional pairing cost of a letter with a part that is not a letter, so that letters are paired
 /// with letters if possible (heuristic).
@@ -49,8 +51,16 @@ impl PartAppearance {
         let paint = paint.map_or(0.0, |(a, b)| a.difference(&b));
         let cost = form + PAINT_COST * paint + HEIGHT_COST * (self.height - other.height).abs();
         let cost = cost + TEXT_COST * f64::from(u8::from(self.is_text != other.is_text));
-        let is_named = !self.name.is_empty() && self.name == other.name;
-        if is_named { cost - NAME_BONUS } else { cost }
+        if self.has_name_of(other) {
+            cost - NAME_BONUS
+        } else {
+            cost
+        }
+    }
+
+    /// Returns whether both parts have the same name.
+    fn has_name_of(&self, other: &Self) -> bool {
+        !self.name.is_empty() && self.name == other.name
     }
 }
 
@@ -63,6 +73,63 @@ impl PartAppearances {
     /// Returns whether a part is a letter of a text; `None` if no appearance is given.
     pub(in crate::correspondence) fn is_text(&self, side: Side, part: usize) -> Option<bool> {
         self.0[side].get(part).map(|look| look.is_text)
+    }
+
+    /// Returns the name of a part; empty if it has none or no appearance is given.
+    pub(in crate::correspondence) fn name(&self, side: Side, part: usize) -> &str {
+        self.0[side].get(part).map_or("", |look| &look.name)
+    }
+
+    /// Returns whether two parts have the same name; false if no appearance is given.
+    pub(in crate::correspondence) fn are_namesakes(&self, parts: [usize; 2]) -> bool {
+        let [source, target] = Side::BOTH.map(|side| self.0[side].get(parts[side]));
+        source.is_some_and(|source| target.is_some_and(|target| source.has_name_of(target)))
+    }
+
+    /// Returns the names that parts of both designs have.
+    pub(crate) fn common_names(&self) -> HashSet<&str> {
+        let [source, target] = Side::BOTH.map(|side| -> HashSet<&str> {
+            let names = self.0[side].iter().map(|look| look.name.as_str());
+            names.filter(|name| !name.is_empty()).collect()
+        });
+        source.intersection(&target).copied().collect()
+    }
+
+    /// If all parts of one design have the same paint, returns the parts of the other design that
+    /// do not look like them: those whose paint differs by at least half as much as the paint that
+    /// differs most. If one of these parts were matched, its partner would change its colour,
+    /// although a part of its own colour exists. Parts with a name that both designs have are not
+    /// included.
+    ///
+    /// Empty if no part of the other design looks like them.
+    pub(in crate::correspondence) fn unlike_parts(&self) -> [Vec<usize>; 2] {
+        let common_names = self.common_names();
+        Side::BOTH.map(|side| {
+            let Some(paint) = self.only_paint(side.other()) else {
+                return Vec::new();
+            };
+            let looks = &self.0[side];
+            let differences: Vec<f64> = looks
+                .iter()
+                .map(|look| look.paint.map_or(f64::INFINITY, |own| own.difference(&paint)))
+                .collect();
+            let largest = differences.iter().copied().fold(0.0, f64::max);
+            let is_unlike = |k: &usize| 2.0 * differences[*k] >= largest;
+            if (0..looks.len()).all(|k| is_unlike(&k)) {
+                return Vec::new();
+            }
+            let is_common = |k: &usize| common_names.contains(looks[*k].name.as_str());
+            (0..looks.len())
+                .filter(|k| is_unlike(k) && !is_common(k))
+                .collect()
+        })
+    }
+
+    /// Returns the paint that all parts of a design have; `None` if they differ or have no paint.
+    fn only_paint(&self, side: Side) -> Option<Paint> {
+        let first = self.0[side].first()?.paint?;
+        let is_first = |look: &PartAppearance| look.paint == Some(first);
+        self.0[side].iter().all(is_first).then_some(first)
     }
 
     /// Returns the paint layer of a part; 0 if no appearance is given.

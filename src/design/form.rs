@@ -30,7 +30,8 @@ pub struct Design {
     pub extent: Bounds,
     /// Original pixels, if the design was imported from a picture.
     pub picture: Option<Picture>,
-    /// Regions with their own colours, lowest layer first; empty if the file specifies no colours.
+    /// Regions with their own colours or names, lowest layer first; empty if the file specifies
+    /// neither.
     pub paint_layers: Vec<PaintLayer>,
     /// Repairs and omissions made during the import.
     pub notes: Vec<ImportNote>,
@@ -167,6 +168,13 @@ impl Design {
         }
     }
 
+    /// Returns whether the file specifies colours: whether any paint layer has a fill or a line.
+    #[must_use]
+    pub fn is_painted(&self) -> bool {
+        let is_painted = |layer: &PaintLayer| layer.paint.is_some() || layer.line.is_some();
+        self.paint_layers.iter().any(is_painted)
+    }
+
     /// Returns the regions of all paint layers, lowest layer first; `None` if there are no layers.
     ///
     /// These regions are matched when designs are shown in their own colours.
@@ -284,7 +292,7 @@ pub(super) struct ImportedOutlines {
     pub(super) regions: Regions,
     /// Rectangle of the page, or bounding box of the regions if the file has no page.
     pub(super) extent: Bounds,
-    /// Coloured regions, lowest layer first; empty if the file specifies no colours.
+    /// Regions with colours or names, lowest layer first; empty if the file specifies neither.
     pub(super) paint_layers: Vec<PaintLayer>,
     /// Repairs and omissions made during the import.
     pub(super) notes: Vec<ImportNote>,

@@ -113,11 +113,7 @@ impl DesignSpace {
         let first = spec.pair(0, 1);
         let bar_width = bar_width(&first)?;
         let mut notes = Vec::new();
-        if spec
-            .designs
-            .iter()
-            .any(|design| !design.paint_layers.is_empty())
-        {
+        if spec.designs.iter().any(|design| design.is_painted()) {
             notes.push(SpaceNote::PaintIgnored);
         }
         let built = BuiltContent::of(spec, bar_width, &ProgressSpan::new(progress, 0.0, 0.3))?;

@@ -8,6 +8,7 @@
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::drawing_pair::DrawingPair;
 use super::error::BuildError;
+use super::note::TransitionNote;
 use super::piece_coating;
 use super::piece_coating::PieceBoundaryLoops;
 use super::spec::TransitionSpec;
@@ -58,7 +59,14 @@ pub(super) fn build_boundary_paths(
         paint_layers,
         ..SolidContent::default()
     };
+    let are_names_ignored = matched
+        .as_ref()
+        .is_some_and(|(drawings, _)| drawings.are_names_ignored);
     let built = BuiltWarp {
+        notes: are_names_ignored
+            .then_some(TransitionNote::NamesIgnored)
+            .into_iter()
+            .collect(),
         matched: matched.map(|(_, matched)| matched),
         ..AnyWarp::Paths(Arc::new(paths)).into()
     };

@@ -1,7 +1,7 @@
 //! Computes the distance fields of two designs: one field of each whole design, and fields of the
 //! parts on each paint layer, so that drawings can be shown in their own colours.
 
-use super::drawing_pair::DrawingPair;
+use super::drawing_pair::{DrawingPair, need_layers};
 use super::error::BuildError;
 use super::note::TransitionNote;
 use super::options::{FieldOptions, PaintRule};
@@ -60,14 +60,18 @@ pub(super) fn painted_fields(
     progress: &dyn Progress,
 ) -> Result<PaintedFieldsResult, BuildError> {
     let designs = [&spec.source, &spec.target];
-    let is_painted = designs.iter().any(|design| !design.paint_layers.is_empty());
-    if spec.options.paint == PaintRule::One || !is_painted {
+    if spec.options.paint == PaintRule::One || !need_layers(designs.map(|design| &**design)) {
         return Ok((None, None));
     }
+    let too_many = match designs.iter().any(|design| design.is_painted()) {
+        true => TransitionNote::PaintIgnored,
+        false => TransitionNote::NamesIgnored,
+    };
     checkpoint(progress, "measuring distances", 0.0)?;
     let drawings = match spec.drawings(bar_width, progress) {
+        Ok(drawings) if drawings.are_names_ignored => return Ok((None, Some(too_many))),
         Ok(drawings) => drawings,
-        Err(BuildError::TooMuch(_)) => return Ok((None, Some(TransitionNote::PaintIgnored))),
+        Err(BuildError::TooMuch(_)) => return Ok((None, Some(too_many))),
         Err(error) => return Err(error),
     };
     let outlines = drawings.outlines.each_ref();
@@ -80,7 +84,7 @@ pub(super) fn painted_fields(
         .check(count * grid.cells(), progress)
         .is_err()
     {
-        return Ok((None, Some(TransitionNote::PaintIgnored)));
+        return Ok((None, Some(too_many)));
     }
     let fields = (0..count).map(|level| {
         checkpoint(progress, "measuring distances", level as f64 / count as f64)?;

@@ -3,7 +3,7 @@
 
 use crate::colour::{Gradient, Paint, StrokeStyle};
 use crate::correspondence::{PartAppearance, PartAppearances};
-use crate::design::PaintLayer;
+use crate::design::{Design, PaintLayer};
 use crate::geometry::Regions;
 
 /// Two designs prepared for matching.
@@ -14,6 +14,8 @@ pub(super) struct DrawingPair {
     pub appearances: PartAppearances,
     /// Ink of each paint layer, the lowest first; empty for designs without paint.
     pub inks: [Vec<LayerInk>; 2],
+    /// Whether parts are not paired by their names, because there are too many of them.
+    pub are_names_ignored: bool,
 }
 
 /// Paint, gradient and stroke of a paint layer.
@@ -39,6 +41,7 @@ impl DrawingPair {
             outlines,
             appearances: PartAppearances(layers.each_ref().map(|layers| part_appearances(layers))),
             inks: layers.map(|layers| layers.iter().map(ink).collect()),
+            are_names_ignored: false,
         })
     }
 
@@ -48,7 +51,18 @@ impl DrawingPair {
             outlines,
             appearances: PartAppearances::default(),
             inks: Default::default(),
+            are_names_ignored: false,
         }
+    }
+}
+
+/// Returns whether two designs are matched layer by layer: if either has colours, or if parts of
+/// both have the same names. Otherwise the layers make no difference, and the united outlines are
+/// matched.
+pub(super) fn need_layers(designs: [&Design; 2]) -> bool {
+    designs.into_iter().any(Design::is_painted) || {
+        let looks = PartAppearances(designs.map(|design| part_appearances(&design.paint_layers)));
+        !looks.common_names().is_empty()
     }
 }
 
@@ -75,18 +89,58 @@ fn part_appearances(layers: &[PaintLayer]) -> Vec<PartAppearance> {
     looks.collect()
 }
 
-/// Names that drawing programs assign automatically; they say nothing about what is drawn.
-const AUTOMATIC_NAMES: [&str; 12] = [
-    "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "shape", "vector", "layer",
-    "group", "g",
+/// Words that drawing programs use, with or without a number, to name shapes automatically. Such
+/// names say nothing about what is drawn.
+const AUTOMATIC_NAMES: [&str; 40] = [
+    "a",
+    "artboard",
+    "clippath",
+    "combinedshape",
+    "compoundpath",
+    "curve",
+    "element",
+    "ellipse",
+    "circle",
+    "fill",
+    "flowroot",
+    "frame",
+    "g",
+    "group",
+    "image",
+    "layer",
+    "layerx",
+    "line",
+    "mask",
+    "object",
+    "oval",
+    "page",
+    "path",
+    "polygon",
+    "polyline",
+    "rect",
+    "rectangle",
+    "shape",
+    "stroke",
+    "subtract",
+    "svg",
+    "svgid",
+    "symbol",
+    "text",
+    "tspan",
+    "union",
+    "use",
+    "vector",
+    "xmlid",
+    "star",
 ];
 
 /// Returns `name` if the author chose it, otherwise an empty string. A name counts as automatic if
-/// it contains a digit or is one of [`AUTOMATIC_NAMES`]; such names have no meaning in another
-/// drawing.
+/// its letters are one of [`AUTOMATIC_NAMES`], as in `path12`, `Layer 1` or `SVGID_3_`, or if it is
+/// `0`, the name of the default layer of DXF files.
 fn author_name(name: &str) -> String {
-    let is_counted = name.contains(|c: char| c.is_ascii_digit());
-    let is_kind = AUTOMATIC_NAMES.contains(&name.to_ascii_lowercase().as_str());
-    let given = if is_counted || is_kind { "" } else { name };
+    let letters = name.chars().filter(|c| c.is_alphabetic());
+    let word = letters.collect::<String>().to_lowercase();
+    let is_automatic = name == "0" || AUTOMATIC_NAMES.contains(&word.as_str());
+    let given = if is_automatic { "" } else { name };
     given.to_owned()
 }

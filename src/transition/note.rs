@@ -41,6 +41,8 @@ pub enum TransitionNote {
     /// The drawings are shown in one colour, because they have too many paints or parts to compute
     /// a distance field for each paint.
     PaintIgnored,
+    /// Parts are not paired by their names, because there are too many of them.
+    NamesIgnored,
     /// Part timings were requested but ignored, because the method is not rigid parts.
     PartTimesIgnored,
     /// The equations of rigid parts could only be solved after small numbers were added to the
@@ -91,6 +93,10 @@ impl fmt::Display for TransitionNote {
             Self::PaintIgnored => write!(
                 f,
                 "the drawings are shown in one colour: they have too many colours or parts for distance fields; use fewer cells, or rigid parts"
+            ),
+            Self::NamesIgnored => write!(
+                f,
+                "parts are not paired by their names: there are too many of them; remove small parts, or use fewer cells"
             ),
             Self::PartTimesIgnored => write!(
                 f,

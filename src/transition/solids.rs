@@ -9,6 +9,7 @@ use super::arap_build::check_size;
 use super::cached_match;
 use super::drawing_pair::DrawingPair;
 use super::error::BuildError;
+use super::note::TransitionNote;
 use super::options::PaintRule;
 use super::piece_coating;
 use super::piece_coating::PieceBoundaryLoops;
@@ -66,6 +67,10 @@ pub(super) fn rigid_parts(
         solid.loops = arap.mesh().boundary_loops();
     }
     let solution = solved.as_ref().map(|solved| &solved.solution);
+    let mut notes = solution.map_or_else(Vec::new, |solution| solution.notes.clone());
+    if drawings.as_ref().is_some_and(|drawings| drawings.are_names_ignored) {
+        notes.push(TransitionNote::NamesIgnored);
+    }
     if let Some((solution, drawings)) = solution.zip(drawings) {
         let loops = PieceBoundaryLoops::of_mesh(arap.mesh());
         solid.paint_layers =
@@ -79,7 +84,7 @@ pub(super) fn rigid_parts(
     }
     let built = BuiltWarp {
         matched: solution.map(|solution| solution.matched.clone()),
-        notes: solution.map_or_else(Vec::new, |solution| solution.notes.clone()),
+        notes,
         solution: solved,
         ..AnyWarp::Rigid(arap).into()
     };

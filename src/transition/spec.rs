@@ -3,7 +3,7 @@
 use super::cached_match;
 use super::cached_match::CachedMatch;
 use super::common_frame::extent;
-use super::drawing_pair::DrawingPair;
+use super::drawing_pair::{DrawingPair, need_layers};
 use super::error::BuildError;
 use super::method::TransitionMethod;
 use super::options::{BuildQuality, PaintRule, TransitionOptions};
@@ -126,17 +126,27 @@ impl TransitionSpec {
         progress: &dyn Progress,
     ) -> Result<DrawingPair, BuildError> {
         let designs = [&self.source, &self.target];
-        let is_painted = designs.iter().any(|design| !design.paint_layers.is_empty());
-        if self.options.paint == PaintRule::One || !is_painted {
-            return Ok(DrawingPair::in_one_colour(
-                self.outlines(bar_width, progress)?,
-            ));
+        let in_one_colour = || {
+            let outlines = self.outlines(bar_width, progress)?;
+            Ok(DrawingPair::in_one_colour(outlines))
+        };
+        if self.options.paint == PaintRule::One || !need_layers(designs.map(|d| &**d)) {
+            return in_one_colour();
         }
         let [source, target] =
             designs.map(|design| separated_paint_layers(design, bar_width, progress));
         let drawings = DrawingPair::of([source?, target?]).ok_or(RegionsError::Empty)?;
-        self.check_workload(&drawings.outlines, progress)?;
-        Ok(drawings)
+        match self.check_workload(&drawings.outlines, progress) {
+            Ok(()) => Ok(drawings),
+            // United outlines have fewer parts, and without colours they look the same.
+            Err(BuildError::TooMuch(_)) if !designs.iter().any(|d| d.is_painted()) => {
+                Ok(DrawingPair {
+                    are_names_ignored: true,
+                    ..in_one_colour()?
+                })
+            }
+            Err(error) => Err(error),
+        }
     }
 
     /// Checks that outlines do not have too many parts, holes or points to be matched.

@@ -156,11 +156,7 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let strip = draw_strip(&sequence, style, &times, cell_px)?;
     // Designs with their own colours get the project's background colour: navy letters would vanish
     // on a dark window.
-    if loaded
-        .designs
-        .iter()
-        .all(|design| design.paint_layers.is_empty())
-    {
+    if !loaded.designs.iter().any(|design| design.is_painted()) {
         return Ok(strip);
     }
     let Rgb([r, g, b]) = style.ground;

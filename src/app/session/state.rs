@@ -282,7 +282,7 @@ impl Session {
     pub fn has_paints(&self) -> bool {
         let is_painted = |design: &Arc<Design>| match &design.form {
             DesignForm::Truss(truss) => !truss.parts().colours.is_empty(),
-            _ => !design.paint_layers.is_empty(),
+            _ => design.is_painted(),
         };
         self.all_designs().iter().any(is_painted)
     }

@@ -89,8 +89,11 @@ pub(super) fn group_parts(
             .chain(unmatched.iter().flat_map(|g| g.parts[side].clone()))
             .collect()
     });
-    let pairing = pair_parts(designs, looks, &fixed, [&fixed_parts[0], &fixed_parts[1]])?;
-    let pairing = without_text_mismatches(pairing, looks, &fixed);
+    let unlike = unlike_parts(looks, &fixed, &fixed_parts);
+    let excluded = Side::BOTH.map(|side| [&fixed_parts[side][..], &unlike[side]].concat());
+    let mut pairing = pair_parts(designs, looks, &fixed, [&excluded[0], &excluded[1]])?;
+    pairing.leave_unmatched(unlike);
+    let pairing = without_mismatches(pairing, looks, &fixed);
     for pair in &pairing.pairs {
         if !fixed.contains(pair) {
             groups.push(PartGroup {
@@ -108,31 +111,50 @@ pub(super) fn group_parts(
     Ok(groups)
 }
 
-/// Dissolves pairs of a letter with a part that is not a letter, provided that other pairs remain:
-/// if a wave turned into a letter, neither would be recognisable.
-fn without_text_mismatches(
+/// Returns for each design the parts that are not paired because they do not look like the other
+/// design (see [`PartAppearances::unlike_parts`]), without those that the user grouped or declared
+/// unmatched. If the user grouped a part of a design, its other parts may be paired with any part.
+fn unlike_parts(
+    looks: &PartAppearances,
+    fixed: &[[usize; 2]],
+    fixed_parts: &[Vec<usize>; 2],
+) -> [Vec<usize>; 2] {
+    if !fixed.is_empty() {
+        return [Vec::new(), Vec::new()];
+    }
+    let mut unlike = looks.unlike_parts();
+    for side in Side::BOTH {
+        unlike[side].retain(|part| !fixed_parts[side].contains(part));
+    }
+    unlike
+}
+
+/// Dissolves pairs of unequal parts, provided that other pairs remain: pairs of a letter with a
+/// part that is not a letter (if a wave turned into a letter, neither would be recognisable), and
+/// pairs of a part with a part of another name, if its own name occurs in the other design. Parts
+/// with the same name always stay together.
+fn without_mismatches(
     pairing: Pairing,
     looks: &PartAppearances,
     fixed: &[[usize; 2]],
 ) -> Pairing {
+    let common_names = looks.common_names();
     let is_mixed = |pair: &[usize; 2]| {
         let [a, b] = Side::BOTH.map(|side| looks.is_text(side, pair[side]));
-        a != b && !fixed.contains(pair)
+        let is_common = |side: Side| {
+            let name = looks.name(side, pair[side]);
+            common_names.contains(name)
+        };
+        let is_mismatch = a != b || Side::BOTH.into_iter().any(is_common);
+        is_mismatch && !fixed.contains(pair) && !looks.are_namesakes(*pair)
     };
     let (mixed, pairs): (Vec<_>, Vec<_>) = pairing.pairs.iter().copied().partition(is_mixed);
     if pairs.is_empty() {
         return pairing;
     }
-    let with_mixed = |mut unmatched: Vec<usize>, side: Side| {
-        unmatched.extend(mixed.iter().map(|pair| pair[side]));
-        unmatched.sort_unstable();
-        unmatched
-    };
-    Pairing {
-        source_only: with_mixed(pairing.source_only, Side::Source),
-        target_only: with_mixed(pairing.target_only, Side::Target),
-        pairs,
-    }
+    let mut remaining = Pairing { pairs, ..pairing };
+    remaining.leave_unmatched(Side::BOTH.map(|side| mixed.iter().map(|pair| pair[side]).collect()));
+    remaining
 }
 
 /// Returns the pairs of parts that the user's links and pins name, each once, ascending.
