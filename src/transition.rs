@@ -77,7 +77,7 @@ pub use crate::time::{PlayMode, Timing, TimingError, TransitionStop};
 pub(crate) use blend_path::BlendEnds;
 pub(crate) use build::field_frame;
 pub use cached_match::CachedMatch;
-pub use common_frame::{DesignFit, frame_similarity, place_in_frame};
+pub use common_frame::{DesignFit, FittedPage, frame_similarity, place_in_frame};
 pub(crate) use distance_fields::distance_field as measured;
 pub use error::BuildError;
 pub use frame::{FigureLayer, Frame, VectorFigure};

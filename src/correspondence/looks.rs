@@ -111,7 +111,10 @@ impl PartAppearances {
             let looks = &self.0[side];
             let differences: Vec<f64> = looks
                 .iter()
-                .map(|look| look.paint.map_or(f64::INFINITY, |own| own.difference(&paint)))
+                .map(|look| {
+                    look.paint
+                        .map_or(f64::INFINITY, |own| own.difference(&paint))
+                })
                 .collect();
             let largest = differences.iter().copied().fold(0.0, f64::max);
             let is_unlike = |k: &usize| 2.0 * differences[*k] >= largest;

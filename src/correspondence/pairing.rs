@@ -29,8 +29,10 @@ impl Pairing {
     /// Lists more parts as unmatched: `parts` of the source and of the target.
     pub(super) fn leave_unmatched(&mut self, parts: [Vec<usize>; 2]) {
         let [source, target] = parts;
-        for (unmatched, more) in [(&mut self.source_only, source), (&mut self.target_only, target)]
-        {
+        for (unmatched, more) in [
+            (&mut self.source_only, source),
+            (&mut self.target_only, target),
+        ] {
             unmatched.extend(more);
             unmatched.sort_unstable();
         }

@@ -28,6 +28,9 @@ pub struct Design {
     /// Rectangle of the picture, of the SVG page or of the line of text; for all other sources, the
     /// bounding box of the geometry. Pictures and pages have their lower left corner at the origin.
     pub extent: Bounds,
+    /// Whether `extent` is a picture or a page, whose size says nothing about the size of what it
+    /// shows.
+    pub has_page: bool,
     /// Original pixels, if the design was imported from a picture.
     pub picture: Option<Picture>,
     /// Regions with their own colours or names, lowest layer first; empty if the file specifies
@@ -64,6 +67,7 @@ impl Design {
         Self {
             name: name.into(),
             extent: form.bounds(),
+            has_page: false,
             form,
             picture: None,
             paint_layers: Vec::new(),
@@ -136,6 +140,7 @@ impl Design {
         let smaller = (kept != given).then_some(ImportNote::ReducedPicture { given, kept });
         Ok(Self {
             extent: picture.bounds(),
+            has_page: true,
             picture: Some(picture),
             notes: (smaller.into_iter())
                 .chain(is_shaded.then_some(ImportNote::NoFlatColours))
@@ -158,6 +163,7 @@ impl Design {
                 DesignForm::Truss(truss) => DesignForm::Truss(truss.transformed(by)),
             },
             extent: Bounds::of(corners).unwrap_or(self.extent),
+            has_page: self.has_page,
             picture: self.picture.as_ref().map(|picture| picture.transformed(by)),
             paint_layers: self
                 .paint_layers

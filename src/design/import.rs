@@ -107,7 +107,11 @@ fn read(
         Format::Picture(format) => {
             Design::from_picture(name, silhouette::decode(bytes, format)?, options)?
         }
-        Format::Svg => svg::read(text(bytes)?, element, options)?.into_design(name),
+        Format::Svg => Design {
+            // The box of a single element is that of its geometry.
+            has_page: element.is_none(),
+            ..svg::read(text(bytes)?, element, options)?.into_design(name)
+        },
         Format::Dxf => dxf::read(bytes, options.tolerance)?.into_design(name),
         Format::Obj => Design::new(name, obj::read(text(bytes)?)?),
         Format::Polygons => polygons::read(text(bytes)?)?.into_design(name),

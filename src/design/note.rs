@@ -80,6 +80,15 @@ pub enum ImportNote {
         /// Free end of one of the curves.
         at: DVec2,
     },
+    /// Number of outlines whose longitudes were continued beyond ±180°, so that shapes at the
+    /// antimeridian are whole.
+    CrossesAntimeridian(usize),
+    /// Pieces on both sides of the antimeridian stay apart, because the map reaches around the
+    /// globe.
+    CutAtAntimeridian,
+    /// Number of outlines around a pole that the file does not close; they were closed along the
+    /// pole.
+    PolarOutlines(usize),
     /// Objects of a type that is not imported were ignored.
     SkippedObjects {
         /// Type name as written in the file.
@@ -174,6 +183,9 @@ impl fmt::Display for ImportNote {
                 write_ignored(f, *count, ["open curve", "open curves"])?;
                 write!(f, "; close the gap at ({}, {})", at.x, at.y)
             }
+            Self::CrossesAntimeridian(_) | Self::CutAtAntimeridian | Self::PolarOutlines(_) => {
+                self.write_map_note(f)
+            }
             Self::SkippedObjects { kind, count } => {
                 let kinds = ["object", "objects"]
                     .map(|what| format!("{what} of type {}", SanitizedLine(kind)));
@@ -225,6 +237,29 @@ impl ImportNote {
                     0 => f.write_str(")"),
                     more => write!(f, " and {more} more)"),
                 }
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl ImportNote {
+    /// Writes the notes that only maps in longitude and latitude have.
+    fn write_map_note(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CrossesAntimeridian(n) => {
+                let what = number(["outline was", "outlines were"], *n);
+                write!(
+                    f,
+                    "{n} {what} continued across the antimeridian (longitude 180°), so that no shape is cut there"
+                )
+            }
+            Self::CutAtAntimeridian => f.write_str(
+                "pieces on both sides of the antimeridian (longitude 180°) stay apart, because the map reaches around the globe",
+            ),
+            Self::PolarOutlines(n) => {
+                let what = number(["outline around a pole was", "outlines around a pole were"], *n);
+                write!(f, "{n} {what} closed along the pole")
             }
             _ => Ok(()),
         }

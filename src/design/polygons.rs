@@ -15,14 +15,16 @@
 //! repeat its first point at the end.
 //!
 //! GeoJSON polygons are imported at any nesting depth of features and collections. The properties
-//! of a feature give its fill colour. Points and lines are ignored and reported as notes.
-//! Coordinates, even longitude and latitude, are used unchanged with x to the right and y up;
-//! numbers after the first two of a point are ignored.
+//! of a feature give its fill colour and its name, by which it is matched. Points and lines are ignored and reported as notes.
+//! Coordinates, even longitude and latitude, are used unchanged with x to the right and y up,
+//! except at the antimeridian (see [`antimeridian`]); numbers after the first two of a point are
+//! ignored.
 //!
 //! Within a polygon or list of rings the even-odd rule decides what is inside, so nested rings are
 //! holes regardless of orientation, and duplicate outlines count once. Polygons are united. Errors
 //! give the position as a path in the document, such as `$.features[2].geometry`.
 
+mod antimeridian;
 mod value;
 
 pub use value::{PolygonsFault, PolygonsImportError};
@@ -33,6 +35,7 @@ use super::note::{ImportNote, OtherKinds};
 use super::paint_layer::PaintLayer;
 use crate::colour::{Paint, Rgb};
 use crate::geometry::{FillRule, Regions, RegionsError, Repairs};
+use antimeridian::join_at_antimeridian;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use value::{
@@ -51,7 +54,10 @@ pub(super) fn read(text: &str) -> Result<ImportedOutlines, PolygonsImportError> 
     let value: Value = serde_json::from_str(text).map_err(JsonError::from)?;
     let mut collector = PolygonCollector::default();
     match &value {
-        Value::Object(object) if object.contains_key("type") => collector.geojson(&value)?,
+        Value::Object(object) if object.contains_key("type") => {
+            collector.geojson(&value)?;
+            collector.notes = join_at_antimeridian(&mut collector.polygons);
+        }
         Value::Object(_) => collector.read_named_members(&value)?,
         _ => collector.list(&value)?,
     }
@@ -61,8 +67,12 @@ pub(super) fn read(text: &str) -> Result<ImportedOutlines, PolygonsImportError> 
     collector.into_outlines()
 }
 
-/// Style of a feature, from its properties: the paint from `fill` and `fill-opacity` of the
-/// simplestyle specification (Mapbox, version 1.1), the name from `layer` or `name`.
+/// Properties that name a feature, the most specific first; upper and lower case count as equal.
+const NAME_KEYS: [&str; 4] = ["layer", "name", "title", "id"];
+
+/// Style of a feature: the paint from the properties `fill` and `fill-opacity` of the simplestyle
+/// specification (Mapbox, version 1.1), the name from the first of [`NAME_KEYS`] among the
+/// properties, otherwise from the member `id` of the feature.
 #[derive(Clone, Default, PartialEq)]
 struct FeatureStyle {
     paint: Option<Paint>,
@@ -70,12 +80,17 @@ struct FeatureStyle {
 }
 
 impl FeatureStyle {
-    /// Reads the style from the properties of a feature.
-    fn of(properties: &Value) -> Self {
-        let text = |key: &str| properties[key].as_str();
-        let fill = text("fill").and_then(colour);
+    /// Reads the style of a feature.
+    fn of(feature: &Value) -> Self {
+        let properties = &feature["properties"];
+        let fill = properties["fill"].as_str().and_then(colour);
         let opacity = properties["fill-opacity"].as_f64().unwrap_or(1.0);
-        let name = text("layer").or_else(|| text("name"));
+        let property = |key: &&str| {
+            let mut all = properties.as_object()?.iter();
+            all.find_map(|(own, value)| own.eq_ignore_ascii_case(key).then(|| name_of(value))?)
+        };
+        let name = NAME_KEYS.iter().find_map(property);
+        let name = name.or_else(|| name_of(&feature["id"]));
         // A fully transparent fill marks a feature that has an outline only.
         let fill = fill.filter(|_| opacity > 0.0);
         Self {
@@ -83,8 +98,17 @@ impl FeatureStyle {
                 colour,
                 opacity: opacity.clamp(0.0, 1.0),
             }),
-            name: name.unwrap_or_default().to_owned(),
+            name: name.unwrap_or_default(),
         }
+    }
+}
+
+/// Returns the name that a value gives: a string that is not blank, or a number.
+fn name_of(value: &Value) -> Option<String> {
+    match value {
+        Value::String(text) => (!text.trim().is_empty()).then(|| text.trim().to_owned()),
+        Value::Number(number) => Some(number.to_string()),
+        _ => None,
     }
 }
 
@@ -108,6 +132,8 @@ struct PolygonCollector {
     inks: Vec<FeatureStyle>,
     /// For each type of object that was ignored: the number of its objects.
     skipped: BTreeMap<String, usize>,
+    /// Changes made to polygons in longitudes and latitudes.
+    notes: Vec<ImportNote>,
 }
 
 impl PolygonCollector {
@@ -153,7 +179,7 @@ impl PolygonCollector {
                 // Polygons outside of features get no style.
                 self.inks
                     .resize(self.polygons.len(), FeatureStyle::default());
-                let style = FeatureStyle::of(&object["properties"]);
+                let style = FeatureStyle::of(object);
                 self.feature(&object["geometry"])?;
                 self.inks.resize(self.polygons.len(), style);
             }
@@ -228,7 +254,8 @@ impl PolygonCollector {
             return Err(empty_error.into());
         }
         let regions = Regions::from_rings(&united, FillRule::NonZero)?;
-        let mut notes = ImportNote::from_repairs(&repairs, FillRule::EvenOdd);
+        let mut notes = self.notes;
+        notes.extend(ImportNote::from_repairs(&repairs, FillRule::EvenOdd));
         notes.extend(ImportNote::from_skipped(self.skipped));
         Ok(ImportedOutlines {
             paint_layers: layers_by_style(styled),
@@ -240,9 +267,12 @@ impl PolygonCollector {
 }
 
 /// Returns one paint layer for each entry of `styled`, a run of consecutive features with the same
-/// style. The first run is at the bottom. Returns no layers if no feature has a colour.
+/// style. The first run is at the bottom. Returns no layers if no feature has a colour or a name.
 fn layers_by_style(styled: Vec<(FeatureStyle, Vec<JsonRing>)>) -> Vec<PaintLayer> {
-    if styled.iter().all(|(style, _)| style.paint.is_none()) {
+    if styled
+        .iter()
+        .all(|(style, _)| *style == FeatureStyle::default())
+    {
         return Vec::new();
     }
     let layer = |(style, rings): (FeatureStyle, Vec<JsonRing>)| {

@@ -56,7 +56,7 @@ pub struct Project {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub content: Option<ContentKind>,
     /// Alignment of the other designs with the first.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub fit: DesignFit,
     /// Designs, at least two, in the order in which the film shows them.
     pub designs: Vec<DesignEntry>,

@@ -10,10 +10,10 @@ use crate::design::{Design, DesignForm, DesignSource};
 use crate::geometry::Similarity;
 use crate::io::read::ReadError;
 use crate::io::sanitize::SanitizedLine;
-use crate::space::{DesignSpace, SpaceSpec, WeightMap};
+use crate::space::{DesignSpace, SpaceNote, SpaceSpec, WeightMap};
 use crate::transition::{
-    BuildError, BuildQuality, PartTime, Transition, TransitionMethod, TransitionOptions,
-    TransitionSpec, UnsupportedMethod, frame_similarity, place_in_frame,
+    BuildError, BuildQuality, PartTime, Transition, TransitionMethod, TransitionNote,
+    TransitionOptions, TransitionSpec, UnsupportedMethod, frame_similarity, place_in_frame,
 };
 use crate::warp::{ManyFeatures, WarpKind};
 use crate::work::progress::{OverallProgress, Progress};
@@ -371,7 +371,10 @@ impl LoadedProject {
         let entries = self.designs.iter().zip(&project.designs);
         let placed =
             entries.map(|(design, entry)| place_in_frame(design, reference, fit, entry.placement));
+        let fitted_pages = self.designs.iter();
+        let fitted_pages = fitted_pages.filter_map(|design| fit.fitted_page(design, reference));
         let mut spec = SpaceSpec {
+            notes: fitted_pages.map(SpaceNote::PageFitted).collect(),
             // `None` lets designs without a common mesh fall back to distance fields.
             content: Some(method.content()).filter(|content| *content != ContentKind::Solid),
             warp: method.warp(),
@@ -513,6 +516,11 @@ impl LoadedProject {
             target: placed_design(1)?,
             method,
             others: self.sequence_designs(method)?,
+            notes: [0, 1]
+                .into_iter()
+                .filter_map(|k| fit.fitted_page(&self.designs[k], reference))
+                .map(TransitionNote::PageFitted)
+                .collect(),
             options: TransitionOptions {
                 // Pins are stored in the designs' own coordinates, but matched in the common
                 // coordinates.

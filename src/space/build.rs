@@ -47,6 +47,8 @@ pub struct SpaceSpec {
     pub features: ManyFeatures,
     /// Number of pins and lines that exist in only some of the pictures; reported as a note.
     pub unmatched_features: usize,
+    /// Notes on how the designs were prepared, which the space takes over.
+    pub notes: Vec<SpaceNote>,
     /// Options of all methods. Pins, lines, links and cuts are ignored, because they belong to two
     /// particular designs.
     pub options: TransitionOptions,
@@ -64,6 +66,7 @@ impl SpaceSpec {
             warp: WarpKind::None,
             features: ManyFeatures::default(),
             unmatched_features: 0,
+            notes: Vec::new(),
             options: TransitionOptions::default(),
             patient: false,
         }
@@ -112,7 +115,7 @@ impl DesignSpace {
         }
         let first = spec.pair(0, 1);
         let bar_width = bar_width(&first)?;
-        let mut notes = Vec::new();
+        let mut notes = spec.notes.clone();
         if spec.designs.iter().any(|design| design.is_painted()) {
             notes.push(SpaceNote::PaintIgnored);
         }
@@ -163,9 +166,8 @@ impl DesignSpace {
             bounds: pictures.bounds(),
             bar_width: 0.0,
             distances: pictures.distances(),
-            notes: unmatched
-                .map(SpaceNote::UnmatchedFeatures)
-                .into_iter()
+            notes: (spec.notes.iter().cloned())
+                .chain(unmatched.map(SpaceNote::UnmatchedFeatures))
                 .collect(),
             content: BlendContent::Colours(Box::new(pictures)),
         };

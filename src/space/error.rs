@@ -2,7 +2,7 @@
 
 use crate::compatible::FamilyError;
 use crate::io::sanitize::SanitizedLine;
-use crate::transition::BuildError;
+use crate::transition::{BuildError, FittedPage};
 use crate::warp::ArapError;
 use crate::work::progress::Cancelled;
 
@@ -43,4 +43,7 @@ pub enum SpaceNote {
     /// The designs' own colours are ignored.
     #[error("shown in the colours of the map: the designs' own colours are not blended")]
     PaintIgnored,
+    /// A page was scaled to fit into the page of the first design.
+    #[error("{0}")]
+    PageFitted(FittedPage),
 }

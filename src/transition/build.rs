@@ -83,6 +83,7 @@ fn build_data(
         ContentKind::Field => fields(spec, bar_width, progress)?,
         ContentKind::Colours => colours(spec, progress)?,
     };
+    built.notes.splice(..0, spec.notes.iter().cloned());
     let of_match = built.matched.iter().flat_map(TransitionNote::of_match);
     built.notes.extend(of_match);
     let ridge = built.warp.arap().and_then(Arap::ridge);

@@ -1,5 +1,6 @@
 //! Notes on a built transition: deviations from the requested options, and suggestions.
 
+use super::common_frame::FittedPage;
 #[cfg(doc)]
 use crate::compatible::CompatibleMesh;
 use crate::compatible::FrameOutlinesError;
@@ -41,6 +42,8 @@ pub enum TransitionNote {
     /// The drawings are shown in one colour, because they have too many paints or parts to compute
     /// a distance field for each paint.
     PaintIgnored,
+    /// A page was scaled to fit into the page of the first design.
+    PageFitted(FittedPage),
     /// Parts are not paired by their names, because there are too many of them.
     NamesIgnored,
     /// Part timings were requested but ignored, because the method is not rigid parts.
@@ -94,6 +97,7 @@ impl fmt::Display for TransitionNote {
                 f,
                 "the drawings are shown in one colour: they have too many colours or parts for distance fields; use fewer cells, or rigid parts"
             ),
+            Self::PageFitted(page) => page.fmt(f),
             Self::NamesIgnored => write!(
                 f,
                 "parts are not paired by their names: there are too many of them; remove small parts, or use fewer cells"

@@ -68,7 +68,10 @@ pub(super) fn rigid_parts(
     }
     let solution = solved.as_ref().map(|solved| &solved.solution);
     let mut notes = solution.map_or_else(Vec::new, |solution| solution.notes.clone());
-    if drawings.as_ref().is_some_and(|drawings| drawings.are_names_ignored) {
+    if drawings
+        .as_ref()
+        .is_some_and(|drawings| drawings.are_names_ignored)
+    {
         notes.push(TransitionNote::NamesIgnored);
     }
     if let Some((solution, drawings)) = solution.zip(drawings) {

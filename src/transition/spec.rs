@@ -6,6 +6,7 @@ use super::common_frame::extent;
 use super::drawing_pair::{DrawingPair, need_layers};
 use super::error::BuildError;
 use super::method::TransitionMethod;
+use super::note::TransitionNote;
 use super::options::{BuildQuality, PaintRule, TransitionOptions};
 use crate::content::ContentKind;
 use crate::design::{Design, DesignForm, Format, PaintLayer, Picture};
@@ -35,6 +36,8 @@ pub struct TransitionSpec {
     /// The other designs of the same sequence, placed in the same frame. They are included in the
     /// grid of distance fields and in the width of bars, which are the same in the whole sequence.
     pub others: Vec<Arc<Design>>,
+    /// Notes on how the designs were prepared, which the transition takes over.
+    pub notes: Vec<TransitionNote>,
 }
 
 impl TransitionSpec {
@@ -58,6 +61,7 @@ impl TransitionSpec {
             patient: false,
             cached_match: CachedMatch::default(),
             others: Vec::new(),
+            notes: Vec::new(),
         }
     }
 

@@ -83,7 +83,7 @@ impl SuggestedChange {
             // `Auto` uses the best of the other rules, so those are not tried one by one.
             all.push(Self::Holes(HoleRule::Auto));
         }
-        if loaded.project.fit == DesignFit::AsDrawn {
+        if matches!(loaded.project.fit, DesignFit::Auto | DesignFit::AsDrawn) {
             all.push(Self::Fit(DesignFit::Centred));
         }
         let methods = [

@@ -11,8 +11,7 @@ use crate::design::{Design, DesignForm};
 use crate::project::{DesignEntry, LoadedProject, MapSettings, Project, ProjectError, gallery};
 use crate::space::SpaceError;
 use crate::transition::{
-    BuildQuality, DesignFit, Timing, Transition, TransitionMethod, TransitionOptions,
-    TransitionStyle,
+    BuildQuality, Timing, Transition, TransitionMethod, TransitionOptions, TransitionStyle,
 };
 use crate::work::progress::{Cancelled, Progress, ProgressShares, ProgressSpan, checkpoint};
 
@@ -67,7 +66,7 @@ impl SegmentSettings {
         let is_independent = project.follows_path()
             || !project.is_sequence()
             || (project.content == Some(ContentKind::Solid)
-                && project.fit == DesignFit::AsDrawn
+                && !project.fit.depends_on_first(&loaded.designs)
                 && !loaded.designs.iter().any(is_truss));
         Self {
             segment_project: project.segment(segment),

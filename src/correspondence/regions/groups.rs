@@ -133,11 +133,7 @@ fn unlike_parts(
 /// part that is not a letter (if a wave turned into a letter, neither would be recognisable), and
 /// pairs of a part with a part of another name, if its own name occurs in the other design. Parts
 /// with the same name always stay together.
-fn without_mismatches(
-    pairing: Pairing,
-    looks: &PartAppearances,
-    fixed: &[[usize; 2]],
-) -> Pairing {
+fn without_mismatches(pairing: Pairing, looks: &PartAppearances, fixed: &[[usize; 2]]) -> Pairing {
     let common_names = looks.common_names();
     let is_mixed = |pair: &[usize; 2]| {
         let [a, b] = Side::BOTH.map(|side| looks.is_text(side, pair[side]));
