@@ -42,6 +42,17 @@ impl Regions {
     }
 }
 
+impl Region {
+    /// Returns whether rings of the region touch each other or themselves, or did so before their
+    /// contacts were separated. `diameter` is that of all regions of the design.
+    pub(crate) fn has_contacts(&self, diameter: f64) -> bool {
+        // A corner that was moved back lies one setback away from where it was.
+        !RegionCorners::of(self)
+            .touching(2.0 * SETBACK * diameter)
+            .is_empty()
+    }
+}
+
 /// Corners of a region, numbered consecutively, ring by ring.
 struct RegionCorners {
     points: Vec<DVec2>,

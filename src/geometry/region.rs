@@ -8,10 +8,12 @@
 use super::sliver::SliverTest;
 use super::{
     Bounds, DVec2, DesignSizeError, RANGE_MESSAGE, Repairs, Ring, Similarity, is_in_range,
+    signed_area,
 };
 use i_overlay::core::fill_rule::FillRule as OverlayRule;
 use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::float::simplify::SimplifyShape;
+use std::collections::{HashMap, HashSet};
 
 /// Settings of the crossing search in `i_overlay`. The search runs in rounds, each of which joins
 /// points closer than a radius. A `progression` of 4 quadruples the radius from round to round.
@@ -153,10 +155,14 @@ impl Regions {
         // Use a grid of 64 bits: one of 32 bits would move points by about 1e-9 of the size.
         let shapes =
             subject.simplify_shape_custom_as::<i64>(rule.into(), Default::default(), SOLVER);
+        let shapes = shapes.into_iter();
+        let shapes: Vec<Vec<Vec<DVec2>>> = shapes
+            .map(|shape| contours_of(shape, origin, smallest.edge))
+            .collect();
         let contours: usize = shapes.iter().map(Vec::len).sum();
         let regions: Vec<Region> = shapes
             .into_iter()
-            .filter_map(|shape| region_from(shape, origin, &smallest))
+            .filter_map(|shape| region_from(shape, &smallest))
             .collect();
         if regions.is_empty() {
             return Err(RegionsError::Empty);
@@ -281,14 +287,13 @@ impl SliverLimits {
     }
 }
 
-/// Converts one cleaned shape, outer contour first, into a region; `None` for a sliver.
-fn region_from(
-    shape: Vec<Vec<[f64; 2]>>,
-    origin: DVec2,
-    smallest: &SliverLimits,
-) -> Option<Region> {
-    let is_same = |a: DVec2, b: DVec2| a.distance_squared(b) <= smallest.edge * smallest.edge;
-    let mut rings = shape.into_iter().filter_map(|contour| {
+/// Returns the contours of one cleaned shape, the outer one first, with points closer than `edge`
+/// merged. Contours that touch themselves are split (see [`simple_loops`]).
+fn contours_of(shape: Vec<Vec<[f64; 2]>>, origin: DVec2, edge: f64) -> Vec<Vec<DVec2>> {
+    let is_same = |a: DVec2, b: DVec2| a.distance_squared(b) <= edge * edge;
+    let mut outer = None;
+    let mut holes = Vec::new();
+    for contour in shape {
         let points = contour.into_iter().map(|p| DVec2::from(p) + origin);
         let mut points: Vec<DVec2> = points.collect();
         // `dedup_by` passes the later point first.
@@ -296,8 +301,22 @@ fn region_from(
         while points.len() > 1 && is_same(points[0], points[points.len() - 1]) {
             points.pop();
         }
-        Ring::new(points).ok()
-    });
+        let (first, others) = simple_loops(points, outer.is_none());
+        match outer {
+            None => outer = Some(first),
+            Some(_) => holes.push(first),
+        }
+        holes.extend(others);
+    }
+    outer.into_iter().chain(holes).collect()
+}
+
+/// Converts the contours of one cleaned shape, outer contour first, into a region; `None` for a
+/// sliver.
+fn region_from(contours: Vec<Vec<DVec2>>, smallest: &SliverLimits) -> Option<Region> {
+    let mut rings = contours
+        .into_iter()
+        .filter_map(|points| Ring::new(points).ok());
     let outer = with_orientation(rings.next()?, true);
     if smallest.is_sliver(&outer) {
         return None;
@@ -307,6 +326,41 @@ fn region_from(
         .filter(|hole| !smallest.is_sliver(hole))
         .collect();
     Some(Region { outer, holes })
+}
+
+/// Splits a contour that touches itself in corners into loops that do not. Returns the loop that is
+/// the contour of the region (`is_outer`) or one of its holes, and the other holes. A contour with
+/// loops that are no holes, as two squares that touch in a corner, is returned whole.
+fn simple_loops(contour: Vec<DVec2>, is_outer: bool) -> (Vec<DVec2>, Vec<Vec<DVec2>>) {
+    let key = |p: DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits);
+    let mut seen = HashSet::with_capacity(contour.len());
+    if contour.iter().all(|&p| seen.insert(key(p))) {
+        return (contour, Vec::new());
+    }
+    // The points of the loop that is still open, and the index of each of them.
+    let (mut open, mut index_of): (Vec<DVec2>, HashMap<[u64; 2], usize>) = Default::default();
+    let mut loops = Vec::new();
+    for &p in &contour {
+        if let Some(&first) = index_of.get(&key(p)) {
+            let closed = open.split_off(first);
+            closed.iter().for_each(|&q| {
+                index_of.remove(&key(q));
+            });
+            loops.push(closed);
+        }
+        index_of.insert(key(p), open.len());
+        open.push(p);
+    }
+    loops.push(open);
+    let area = |points: &Vec<DVec2>| signed_area(points);
+    loops.sort_by(|a, b| area(b).abs().total_cmp(&area(a).abs()));
+    // Loops inside the outer contour run the other way; the loops of holes run alike.
+    let runs_as_first = |k: usize| (area(&loops[k]) > 0.0) == (area(&loops[0]) > 0.0);
+    if (1..loops.len()).any(|k| runs_as_first(k) == is_outer) {
+        return (contour, Vec::new());
+    }
+    let first = loops.remove(0);
+    (first, loops)
 }
 
 /// Returns the ring counter-clockwise if `ccw`, and clockwise otherwise.
@@ -430,6 +484,40 @@ mod tests {
         let regions = Regions::from_rings(&[nearly], FillRule::NonZero).expect("a region");
         let points = regions.rings().next().expect("an outline").points();
         assert_eq!(points.len(), 4, "{points:?}");
+    }
+
+    #[test]
+    fn holes_that_touch_in_a_corner_are_holes_of_their_own() {
+        let plate = ring(&[(0.0, 0.0), (10.0, 0.0), (10.0, 8.0), (0.0, 8.0)]);
+        let left = ring(&[(5.0, 4.0), (2.0, 6.0), (2.0, 2.0)]);
+        let right = ring(&[(5.0, 4.0), (7.0, 2.0), (7.0, 6.0)]);
+        let notch = ring(&[(10.0, 4.0), (8.0, 5.0), (8.0, 3.0)]);
+        let rings = [plate, left, right, notch];
+        for rule in [FillRule::EvenOdd, FillRule::NonZero] {
+            let mut rings = rings.clone();
+            if rule == FillRule::NonZero {
+                rings[1..].iter_mut().for_each(|hole| hole.reverse());
+            }
+            let (regions, repairs) = Regions::from_rings_reporting(&rings, rule).expect("area");
+            assert_eq!((regions.len(), regions.rings().count()), (1, 4), "{rule:?}");
+            assert!((regions.area() - (80.0 - 6.0 - 4.0 - 2.0)).abs() < 1e-9);
+            assert_eq!(repairs.slivers, 0);
+        }
+    }
+
+    #[test]
+    fn squares_that_touch_in_a_corner_are_pieces_of_their_own() {
+        let square = |x: f64| ring(&[(x, x), (x + 2.0, x), (x + 2.0, x + 2.0), (x, x + 2.0)]);
+        let regions = Regions::from_rings(&[square(0.0), square(2.0)], FillRule::NonZero);
+        let regions = regions.expect("area");
+        assert_eq!((regions.len(), regions.rings().count()), (2, 2));
+        // Two openings around a square that touches the frame with two opposite corners.
+        let frame = ring(&[(0.0, 0.0), (6.0, 0.0), (6.0, 6.0), (0.0, 6.0)]);
+        let opening = ring(&[(1.0, 1.0), (5.0, 1.0), (5.0, 5.0), (1.0, 5.0)]);
+        let island = ring(&[(1.0, 1.0), (3.0, 2.0), (5.0, 5.0), (2.0, 3.0)]);
+        let regions = Regions::from_rings(&[frame, opening, island], FillRule::EvenOdd);
+        let area = regions.expect("area").area();
+        assert!((area - (36.0 - 16.0 + 4.0)).abs() < 1e-9, "{area}");
     }
 
     #[test]

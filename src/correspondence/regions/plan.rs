@@ -148,6 +148,15 @@ impl<'a> MatchPlan<'a> {
         })
     }
 
+    /// Returns whether rings of any part of the group with this index touch each other.
+    pub(crate) fn has_contacts(&self, group: usize) -> bool {
+        let regions = self.regions(&self.groups[group]);
+        Side::BOTH.into_iter().any(|side| {
+            let diameter = self.designs[side].bounds().diameter();
+            regions[side].iter().any(|part| part.has_contacts(diameter))
+        })
+    }
+
     /// Returns the groups of parts that are matched together.
     pub(crate) fn groups(&self) -> &[PartGroup] {
         &self.groups

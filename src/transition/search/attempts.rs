@@ -282,7 +282,8 @@ pub(in crate::transition) fn best_of_group(
         .map(|result| result.ok().filter(has_unpaired_holes))
         .collect();
     let sliding = ProgressSpan::new(progress, ATTEMPTS_PROGRESS, 1.0);
-    slide_and_choose(paired, unpaired, group.spec, &sliding)
+    let holes_touch = group.plan.has_contacts(group.index);
+    slide_and_choose(paired, unpaired, holes_touch, group.spec, &sliding)
 }
 
 /// Returns the draft match of each piece of a group of parts: the requested match or, for pieces

@@ -145,6 +145,11 @@ impl MatchCandidate {
         self.defects.folds > 0
     }
 
+    /// Returns whether no face folds and no outlines cross at any sampled time.
+    pub(in crate::transition) fn is_sound(&self) -> bool {
+        self.defects.folds == 0 && self.defects.crossings == 0
+    }
+
     /// Returns whether the piece as a whole turns by at most [`MAX_UPRIGHT_ROTATION`].
     pub(in crate::transition) fn stays_upright(&self) -> bool {
         self.defects.rotation.abs() <= MAX_UPRIGHT_ROTATION

@@ -22,11 +22,15 @@ pub(super) const LOW_DISTORTION: f64 = 1.02;
 /// of its match in `unpaired`, in which no holes are matched. Returns the better of the two.
 /// `unpaired` has one entry per piece or is empty.
 ///
+/// If `holes_touch`, holes stay matched as long as nothing folds or crosses. The gap between
+/// touching holes has no width in one design, so the distortion of its faces has no meaning.
+///
 /// # Errors
 /// If the work is cancelled.
 pub(super) fn slide_and_choose(
     paired: Vec<PieceResult>,
     mut unpaired: Vec<Option<MatchCandidate>>,
+    holes_touch: bool,
     spec: &TransitionSpec,
     progress: &dyn Progress,
 ) -> Result<Vec<PieceResult>, BuildError> {
@@ -41,6 +45,9 @@ pub(super) fn slide_and_choose(
         let [first, second] =
             [(0.0, 0.5), (0.5, 1.0)].map(|(from, to)| ProgressSpan::new(&share, from, to));
         let mut best = slide_piece(paired, spec, &first)?;
+        if holes_touch && best.as_ref().is_ok_and(MatchCandidate::is_sound) {
+            return Ok(best);
+        }
         // The two matches are compared only after sliding, because sliding can repair a match of
         // holes that folds, as between the letters D and P.
         let unpaired = slide_while_better(unpaired, spec, &second)?;
