@@ -13,6 +13,7 @@ mod family;
 mod frame_outlines;
 mod mesh;
 mod outlines;
+mod polygon_faces;
 mod polygons;
 mod truss;
 mod validation;

@@ -10,6 +10,7 @@ mod components;
 mod connectivity;
 mod edges;
 mod natural_neighbours;
+mod polygon_faces;
 mod subdivide;
 pub mod triangulation;
 
@@ -17,9 +18,11 @@ pub use components::components;
 pub use connectivity::{Connectivity, ConnectivityError};
 pub(crate) use edges::{sides, undirected};
 pub use natural_neighbours::{NaturalNeighbours, SitesError};
+pub use polygon_faces::PolygonFaces;
 pub use subdivide::{MAX_ROUNDS, MAX_VERTICES, Subdivision, TooManyVertices};
 
 use crate::geometry::{Bounds, DVec2, DesignSizeError, RANGE_MESSAGE, Similarity, is_in_range};
+use std::sync::Arc;
 
 /// Triangles over points in the plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +30,8 @@ pub struct TriangleMesh {
     positions: Vec<DVec2>,
     faces: Vec<[u32; 3]>,
     connectivity: Connectivity,
+    /// Faces as listed, if any of them has more than three vertices.
+    polygons: Option<Arc<PolygonFaces>>,
 }
 
 /// Reason why points and faces do not form a [`TriangleMesh`]. Indices start at 0 in fields and at
@@ -59,9 +64,35 @@ pub enum MeshError {
     /// The face with this index names a vertex twice.
     #[error("face {} names one vertex twice; remove or correct the face", .0 + 1)]
     Repeated(usize),
+    /// The face with this index touches or crosses itself, or has fewer than three vertices.
+    #[error("face {} touches or crosses itself, or encloses no area; correct or remove it", .0 + 1)]
+    NotSimple(usize),
     /// Faces do not meet edge to edge.
     #[error(transparent)]
     Connectivity(#[from] ConnectivityError),
+}
+
+impl MeshError {
+    /// Returns the error with other indices of faces: `listed` maps the index of a triangle to that
+    /// of the face to which it belongs.
+    pub(crate) fn with_faces(self, listed: &dyn Fn(usize) -> usize) -> Self {
+        match self {
+            Self::Connectivity(ConnectivityError::Opposed(faces)) => {
+                Self::Connectivity(ConnectivityError::Opposed(faces.map(listed)))
+            }
+            Self::OutOfRange {
+                face,
+                vertex,
+                vertices,
+            } => Self::OutOfRange {
+                face: listed(face),
+                vertex,
+                vertices,
+            },
+            Self::Repeated(face) => Self::Repeated(listed(face)),
+            other => other,
+        }
+    }
 }
 
 impl TriangleMesh {
@@ -93,7 +124,69 @@ impl TriangleMesh {
             positions,
             faces,
             connectivity,
+            polygons: None,
         })
+    }
+
+    /// Creates a mesh from faces with three or more vertices, which are divided into triangles (see
+    /// the module `polygon_faces`). Errors count the faces as given.
+    ///
+    /// # Errors
+    /// [`MeshError`] names the first vertex or face that cannot be used.
+    ///
+    /// ```
+    /// use morphospace::{geometry::DVec2, mesh::{PolygonFaces, TriangleMesh}};
+    /// let mut faces = PolygonFaces::default();
+    /// faces.push([0, 1, 2, 3]);
+    /// let corners = vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+    /// let mesh = TriangleMesh::from_polygons(corners, faces)?;
+    /// assert_eq!(mesh.faces(), [[0, 1, 2], [0, 2, 3]]);
+    /// # Ok::<(), morphospace::mesh::MeshError>(())
+    /// ```
+    pub fn from_polygons(positions: Vec<DVec2>, polygons: PolygonFaces) -> Result<Self, MeshError> {
+        let vertices = positions.len();
+        for face in 0..polygons.len() {
+            let mut corners = polygons.polygon(face).iter();
+            if let Some(&vertex) = corners.find(|&&v| v as usize >= vertices) {
+                return Err(MeshError::OutOfRange {
+                    face,
+                    vertex,
+                    vertices,
+                });
+            }
+        }
+        if let Some(bad) = positions.iter().position(|&p| !is_in_range(p)) {
+            return Err(MeshError::Place(bad));
+        }
+        let faces = polygons.triangles(&positions);
+        let faces = faces.map_err(MeshError::NotSimple)?;
+        let mesh = Self::new(positions, faces);
+        if polygons.are_triangles() {
+            return mesh;
+        }
+        let mesh = mesh.map_err(|error| error.with_faces(&|face| polygons.polygon_of(face)))?;
+        Ok(Self {
+            polygons: Some(Arc::new(polygons)),
+            ..mesh
+        })
+    }
+
+    /// Returns the faces as they were given: polygons, or else the triangles.
+    #[must_use]
+    pub fn listed_faces(&self) -> Arc<PolygonFaces> {
+        self.polygons.clone().unwrap_or_else(|| {
+            let mut triangles = PolygonFaces::default();
+            self.faces.iter().for_each(|&face| triangles.push(face));
+            Arc::new(triangles)
+        })
+    }
+
+    /// Returns the index, among the faces as they were given, of the face to which a triangle
+    /// belongs.
+    #[must_use]
+    pub fn listed_face(&self, triangle: usize) -> usize {
+        let polygons = self.polygons.as_ref();
+        polygons.map_or(triangle, |polygons| polygons.polygon_of(triangle))
     }
 
     /// Returns the position of each vertex.

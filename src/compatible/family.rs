@@ -7,6 +7,7 @@
 mod outlines;
 mod shared_boundary;
 
+use super::polygon_faces::common_triangles;
 use super::{BarElement, CompatibleError, CompatibleMesh, PieceMeshError};
 use crate::design::Truss;
 use crate::geometry::{Bounds, DVec2};
@@ -139,7 +140,8 @@ impl CompatibleFamily {
                 .map_err(|error| FamilyError::Incompatible { design, error })?;
         }
         let places = meshes.iter().map(|mesh| mesh.positions().to_vec());
-        Self::new(first.faces().to_vec(), places.collect(), Vec::new())
+        let faces = common_triangles(meshes).map_err(|_| FamilyError::NoCommonTriangulation)?;
+        Self::new(faces, places.collect(), Vec::new())
     }
 
     /// Creates a family of trusses with the same nodes and bars.

@@ -1,6 +1,7 @@
 //! A mesh with two embeddings: one list of faces with the positions of their vertices in source and
 //! target.
 
+use super::polygon_faces::common_triangles;
 use super::truss;
 use super::validation;
 use super::validation::{BarElement, CompatibleError};
@@ -67,28 +68,22 @@ impl CompatibleMesh {
     }
 
     /// Creates a mesh from two meshes that have the same faces in the same order. The direction in
-    /// which a face lists its vertices does not matter.
+    /// which a face lists its vertices does not matter. Faces with more than three vertices are
+    /// divided into the same triangles in both.
     ///
     /// # Errors
-    /// [`CompatibleError::FaceCounts`] or [`CompatibleError::FacesDiffer`] if the faces differ.
-    /// Otherwise as [`Self::new`].
+    /// [`CompatibleError::FaceCounts`] or [`CompatibleError::FacesDiffer`] if the faces differ,
+    /// [`CompatibleError::NoTriangulation`] for a face without common triangles. Otherwise as
+    /// [`Self::new`]. Faces are counted as the meshes list them.
     pub fn from_meshes(
         source: &TriangleMesh,
         target: &TriangleMesh,
     ) -> Result<Self, CompatibleError> {
-        let (a, b) = (source.faces(), target.faces());
-        if a.len() != b.len() {
-            return Err(CompatibleError::FaceCounts([a.len(), b.len()]));
-        }
-        if let Some(face) = (0..a.len()).find(|&f| !same_face(a[f], b[f])) {
-            return Err(CompatibleError::FacesDiffer(face));
-        }
-        Self::new(
-            a.to_vec(),
-            source.positions().to_vec(),
-            target.positions().to_vec(),
-            Vec::new(),
-        )
+        let faces = common_triangles(&[source, target])?;
+        let places = [source, target].map(|mesh| mesh.positions().to_vec());
+        let [in_source, in_target] = places;
+        Self::new(faces, in_source, in_target, Vec::new())
+            .map_err(|error| error.with_faces(&|face| source.listed_face(face)))
     }
 
     /// Creates a mesh from two trusses with the same nodes and bars. Panels (areas enclosed by
@@ -273,14 +268,6 @@ impl CompatibleMesh {
             connectivity,
         })
     }
-}
-
-/// Returns whether two faces have the same vertices in any order. Orientation is ignored here;
-/// [`CompatibleMesh::new`] determines it from the embeddings.
-fn same_face(mut a: [u32; 3], mut b: [u32; 3]) -> bool {
-    a.sort_unstable();
-    b.sort_unstable();
-    a == b
 }
 
 #[cfg(test)]

@@ -34,9 +34,9 @@ use crate::geometry::{DVec2, Side, SourceTarget, signed_area};
 use crate::mesh::undirected;
 use crate::work::progress::{Progress, check_cancelled, checkpoint};
 use blocks::PlanarBlocks;
-use error::MAX_PANEL_NODES;
 pub use error::TrussError;
-pub(super) use error::list_first;
+pub(super) use error::{MAX_PANEL_NODES, list_first};
+pub(super) use panel_triangulation::triangulate_panel;
 use std::collections::HashSet;
 
 /// Faces as triples of node indices, and the bars that become two-point elements.
@@ -147,7 +147,7 @@ fn triangles(
     if cycle.len() > MAX_PANEL_NODES {
         return Err(TrussError::TooLarge(cycle.to_vec()));
     }
-    let faces = panel_triangulation::triangulate_panel(cycle, nodes, progress)?;
+    let faces = triangulate_panel(cycle, &[nodes.source, nodes.target], progress)?;
     faces.ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
 }
 

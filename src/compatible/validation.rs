@@ -23,6 +23,10 @@ pub enum CompatibleError {
     /// The face with this index has different vertices in the two designs.
     #[error("face {} differs between source and target; both need the same faces in the same order", .0 + 1)]
     FacesDiffer(usize),
+    /// The face with this index has more than three vertices, and no way to divide it into triangles
+    /// is valid in both designs.
+    #[error("face {} cannot be divided into triangles that are valid in both designs; divide it in the files", .0 + 1)]
+    NoTriangulation(usize),
     /// A coordinate is NaN or infinite.
     #[error("vertex {} of the {side} is not a finite point; correct its coordinates", vertex + 1)]
     NotFinite {
@@ -64,6 +68,27 @@ pub enum CompatibleError {
     /// Two trusses are incompatible, or a panel cannot be triangulated.
     #[error(transparent)]
     Truss(#[from] TrussError),
+}
+
+impl CompatibleError {
+    /// Returns the error with other indices of faces: `listed` maps the index of a triangle to that
+    /// of the face to which it belongs.
+    pub(super) fn with_faces(self, listed: &dyn Fn(usize) -> usize) -> Self {
+        let all = |triangles: Vec<usize>| {
+            let mut faces: Vec<usize> = triangles.into_iter().map(listed).collect();
+            faces.dedup();
+            faces
+        };
+        match self {
+            Self::Flipped(faces) => Self::Flipped(all(faces)),
+            Self::Flat { side, faces } => Self::Flat {
+                side,
+                faces: all(faces),
+            },
+            Self::Mesh(error) => Self::Mesh(error.with_faces(listed)),
+            other => other,
+        }
+    }
 }
 
 /// Formats face indices, which count from 0, as "face 3 is …" or "faces 3, 4, … and 9 more are …",

@@ -5,13 +5,14 @@
 //! give the same connectivity. OBJ crates that renumber vertices by first use or per texture
 //! coordinate do not guarantee this, and lose the numbers that error messages need.
 //!
-//! Faces with more than three vertices are divided into a fan of triangles about their first
-//! vertex. Unlike a better triangulation, a fan does not depend on the positions, so two files with
-//! the same `f` lines get the same triangles. A fan requires nearly convex faces. The orientation
-//! of the faces is not checked here, but when two meshes are paired.
+//! Faces with more than three vertices, also concave ones, are divided into triangles. Two files
+//! with the same `f` lines need the same triangles, which [`CompatibleMesh::from_meshes`] finds.
+//! The orientation of the faces is not checked here, but when two meshes are paired.
+//!
+//! [`CompatibleMesh::from_meshes`]: crate::compatible::CompatibleMesh::from_meshes
 
 use crate::geometry::{DVec2, RANGE_MESSAGE, is_in_range};
-use crate::mesh::{MeshError, TriangleMesh};
+use crate::mesh::{MeshError, PolygonFaces, TriangleMesh};
 use std::borrow::Cow;
 
 /// Error of importing an OBJ file. Lines, vertices and faces are counted from 1.
@@ -89,6 +90,9 @@ pub enum ObjFault {
         /// Number of vertices in the file; if `named` is not positive, only those before the face.
         vertices: usize,
     },
+    /// A face touches or crosses itself, or encloses no area. Holds the number of the face.
+    #[error("face {0} touches or crosses itself, or encloses no area; correct or remove it")]
+    NotSimple(usize),
     /// A face uses a vertex twice.
     #[error("face {face} uses vertex {vertex} twice; correct the face")]
     Repeated {
@@ -232,7 +236,7 @@ impl ObjParser {
         if u32::try_from(self.positions.len()).is_err() {
             return Err(ObjError::TooMany);
         }
-        let mut faces = Vec::with_capacity(self.polygons.len());
+        let mut faces = PolygonFaces::default();
         let mut used = vec![false; self.positions.len()];
         let ends = self.polygons.iter().skip(1).map(|&(_, first)| first);
         let ends = ends.chain([self.corners.len()]);
@@ -240,15 +244,19 @@ impl ObjParser {
             let corners = &self.corners[first..end];
             let checked = self.check_corners(face, corners, &mut used);
             checked.map_err(|fault| ObjError::Line { line, fault })?;
-            // Triangulates the face as a fan about its first vertex. `face` has rejected faces
-            // with fewer than three vertices.
-            let fan = corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]);
-            faces.extend(fan.map(|corners| corners.map(|c| c as u32)));
+            faces.push(corners.iter().map(|&corner| corner as u32));
         }
         if let Some(unused) = used.iter().position(|&used| !used) {
             return Err(ObjError::Unused(unused + 1));
         }
-        Ok(TriangleMesh::new(self.positions, faces)?)
+        let lines = self.polygons;
+        TriangleMesh::from_polygons(self.positions, faces).map_err(|error| match error {
+            MeshError::NotSimple(face) => ObjError::Line {
+                line: lines[face].0,
+                fault: ObjFault::NotSimple(face + 1),
+            },
+            error => error.into(),
+        })
     }
 
     /// Checks that the vertices of a face exist and differ, and marks them as used. Runs after the

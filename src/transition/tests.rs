@@ -12,7 +12,9 @@ use crate::work::progress::{Progress, Silent};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+mod names;
 mod outline_turning;
+mod pages;
 mod paint;
 mod part_times;
 mod transients;
@@ -279,6 +281,8 @@ fn fits_centre_and_scale_the_target() {
         let together = bounds(&a).centre().distance(bounds(&b).centre()) < 1e-6;
         assert_eq!(together, fit != DesignFit::AsDrawn, "{fit:?}");
     }
+    let auto = place_in_frame(&large, &small, DesignFit::Auto, still).unwrap();
+    assert!(Arc::ptr_eq(&auto, &large), "equal pages stay as drawn");
     let placement = Similarity {
         rotation: std::f64::consts::FRAC_PI_4,
         offset: DVec2::new(5.0, 0.0),

@@ -6,7 +6,7 @@ use crate::work::progress::Cancelled;
 
 /// Maximum number of nodes of a panel (resource limit: at this size the dynamic program examines
 /// 160 million triangles, in about a second).
-pub(super) const MAX_PANEL_NODES: usize = 1000;
+pub(in crate::compatible) const MAX_PANEL_NODES: usize = 1000;
 
 /// Reason why two trusses have no common triangulation. Indices of nodes and bars start at 0 in
 /// fields and in messages, as in truss files.

@@ -1,7 +1,7 @@
-//! Triangulates one polygon in two embeddings at once so that the smallest angle over both is as
+//! Triangulates one polygon in several embeddings at once so that the smallest angle over all is as
 //! large as possible.
 
-use crate::geometry::{DVec2, SourceTarget, orient2d};
+use crate::geometry::{DVec2, orient2d};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
 /// Marks a part of the polygon that has no triangulation; smaller than the sine of any angle of a
@@ -9,14 +9,14 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled};
 const NO_TRIANGULATION: f64 = -1.0;
 
 /// Triangulates the polygon with the given nodes in counter-clockwise order. All triangles are
-/// positive in both designs, and the smallest angle over both is as large as possible. `None` if
-/// there is no such triangulation.
-pub(super) fn triangulate_panel(
+/// positive in all `embeddings`, lists of the nodes' positions, and the smallest angle over all is
+/// as large as possible. `None` if there is no such triangulation.
+pub(in crate::compatible) fn triangulate_panel(
     cycle: &[u32],
-    nodes: SourceTarget<&[DVec2]>,
+    embeddings: &[&[DVec2]],
     progress: &dyn Progress,
 ) -> Result<Option<Vec<[u32; 3]>>, Cancelled> {
-    let table = ChordTable::fill(cycle, nodes, progress)?;
+    let table = ChordTable::fill(cycle, embeddings, progress)?;
     let Some(last) = cycle.len().checked_sub(1) else {
         return Ok(None);
     };
@@ -48,7 +48,7 @@ impl ChordTable {
     /// Fills the table, from chords that skip few corners to chords that skip many.
     fn fill(
         cycle: &[u32],
-        nodes: SourceTarget<&[DVec2]>,
+        embeddings: &[&[DVec2]],
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
         let size = cycle.len();
@@ -62,7 +62,7 @@ impl ChordTable {
             for i in 0..size - length {
                 let j = i + length;
                 let cell = table.cell(i, j);
-                table.cells[cell] = table.best_corner(cycle, nodes, i, j);
+                table.cells[cell] = table.best_corner(cycle, embeddings, i, j);
             }
         }
         Ok(table)
@@ -78,7 +78,7 @@ impl ChordTable {
     fn best_corner(
         &self,
         cycle: &[u32],
-        nodes: SourceTarget<&[DVec2]>,
+        embeddings: &[&[DVec2]],
         i: usize,
         j: usize,
     ) -> (f64, usize) {
@@ -94,8 +94,8 @@ impl ChordTable {
                 continue;
             }
             let corners = [i, k, j].map(|corner| cycle[corner] as usize);
-            let own =
-                smallest_sine(corners, nodes.source).min(smallest_sine(corners, nodes.target));
+            let sines = embeddings.iter().map(|nodes| smallest_sine(corners, nodes));
+            let own = sines.fold(f64::INFINITY, f64::min);
             if parts.min(own) > best.0 {
                 best = (parts.min(own), k);
             }

@@ -271,7 +271,7 @@ proptest::proptest! {
         let (source, target) = (around(|r| r.0), around(|r| r.1));
         let pair = SourceTarget { source: &source[..], target: &target[..] };
         let cycle: Vec<u32> = (0..count as u32).collect();
-        let found = panel_triangulation::triangulate_panel(&cycle, pair, &Silent).expect("not cancelled");
+        let found = panel_triangulation::triangulate_panel(&cycle, &pair.to_array(), &Silent).expect("not cancelled");
         let found = found.map(|faces| {
             faces.iter().map(|&f| sines(f, pair).unwrap_or(-1.0)).fold(f64::INFINITY, f64::min)
         });

@@ -77,3 +77,34 @@ fn a_bad_face_is_reported() {
         ObjError::Mesh(_)
     ));
 }
+
+#[test]
+fn a_concave_face_is_divided_into_triangles_inside_it() {
+    // A U of area 7 whose first vertex does not see all others, in both orientations.
+    let vertices = "v 0 0\nv 3 0\nv 3 3\nv 2 3\nv 2 1\nv 1 1\nv 1 3\nv 0 3\n";
+    for (face, sign) in [("4 5 6 7 8 1 2 3", 1.0), ("3 2 1 8 7 6 5 4", -1.0)] {
+        let mesh = read(&format!("{vertices}f {face}\n")).expect("valid");
+        let areas = mesh.faces().iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|v| mesh.positions()[v as usize]);
+            0.5 * (b - a).perp_dot(c - a) * sign
+        });
+        let areas: Vec<f64> = areas.collect();
+        assert_eq!(areas.len(), 6);
+        assert!(areas.iter().all(|area| *area > 0.0), "{areas:?}");
+        assert!((areas.iter().sum::<f64>() - 7.0).abs() < 1e-12);
+        assert_eq!(mesh.boundary_loops().len(), 1);
+    }
+}
+
+#[test]
+fn errors_count_the_faces_of_the_file() {
+    // The first face has five vertices, so triangle 4 belongs to face 2.
+    let vertices = "v 0 0\nv 2 0\nv 3 1\nv 1 3\nv 0 2\nv 3 3\n";
+    let opposed = error(&format!("{vertices}f 1 2 3 4 5\nf 3 4 6\n"));
+    assert_eq!(
+        opposed.to_string(),
+        "faces 1 and 2 are wound in opposite directions; reverse the vertices of one"
+    );
+    let crossed = "v 0 0\nv 2 0\nv 0 2\nv 2 2\nf 1 2 4\nf 1 2 3 4\n";
+    assert_eq!(fault(crossed, 6), ObjFault::NotSimple(2));
+}

@@ -190,8 +190,11 @@ fn islands(polygons: &[&str]) -> ImportedOutlines {
     read(&text).expect("islands")
 }
 
+/// Returns the notes on an imported map, without those on repairs of outlines.
 fn words(map: &ImportedOutlines) -> Vec<String> {
-    map.notes.iter().map(ToString::to_string).collect()
+    let is_repair = |note: &&ImportNote| matches!(note, ImportNote::RedundantPoints(_));
+    let notes = map.notes.iter().filter(|note| !is_repair(note));
+    notes.map(ToString::to_string).collect()
 }
 
 const CROSSED: &str = "continued across the antimeridian";
@@ -272,8 +275,8 @@ fn a_ring_around_a_pole_is_closed_along_the_pole() {
     let open = islands(&["[[[-180,-70],[-60,-70],[60,-70],[180,-70],[-180,-70]]]"]);
     assert!((open.regions.area() - 360.0 * 20.0).abs() < 1e-6);
     assert_eq!(
-        words(&open)[0],
-        "1 outline around a pole was closed along the pole"
+        words(&open),
+        ["1 outline around a pole was closed along the pole"]
     );
     let inner = islands(&["[[[-90,80],[0,80],[90,80],[170,80],[-170,80]]]"]);
     assert!((inner.regions.area() - 360.0 * 10.0).abs() < 1e-6);

@@ -8,6 +8,7 @@ use crate::geometry::{
 use crate::transition::arap_build::build_arap;
 use crate::transition::error::BuildError;
 use crate::transition::options::TransitionOptions;
+use crate::transition::stiffening::stiffen_folds;
 use crate::transition::transients::holes::{PieceHole, timed};
 use crate::transition::transients::layers::PieceLayers;
 use crate::warp::homotopy::Homotopy;
@@ -104,20 +105,7 @@ impl MatchCandidate {
         let mesh = mesh_of_piece(&matched, &options.triangulation, &meshing)
             .map_err(CandidateError::Mesh)?;
         let defects = if matched.is_matched() {
-            // Apart from `symmetric` and the homotopy, the piece is rated with default options,
-            // because requested ones such as the anchor refer to the whole design. The bounded
-            // homotopy is too expensive for a rating and is replaced by the polar one, which starts
-            // and ends with the same shapes.
-            let homotopy = match options.arap.homotopy {
-                Homotopy::Bounded => Homotopy::Polar,
-                homotopy => homotopy,
-            };
-            let own_options = ArapOptions {
-                homotopy,
-                symmetric: options.arap.symmetric,
-                ..ArapOptions::default()
-            };
-            let motion = build_arap(&mesh, &own_options, &[], &solving)?;
+            let motion = build_arap(&mesh, &rating_options(options), &[], &solving)?;
             // A single piece lies on a single layer.
             let layers = PieceLayers::default();
             let holes = timed(std::slice::from_ref(&matched), &motion, &layers, progress)?;
@@ -145,9 +133,30 @@ impl MatchCandidate {
         self.defects.folds > 0
     }
 
-    /// Returns whether no face folds and no outlines cross at any sampled time.
-    pub(in crate::transition) fn is_sound(&self) -> bool {
-        self.defects.folds == 0 && self.defects.crossings == 0
+    /// Returns whether, after the folded faces have been stiffened, no face folds and no outlines
+    /// cross at any sampled time.
+    ///
+    /// # Errors
+    /// If the motion cannot be solved, or the work is cancelled.
+    pub(in crate::transition) fn can_be_sound(
+        &self,
+        options: &TransitionOptions,
+        progress: &dyn Progress,
+    ) -> Result<bool, BuildError> {
+        if self.defects.folds == 0 {
+            return Ok(self.defects.crossings == 0);
+        }
+        let motion = build_arap(&self.mesh, &rating_options(options), &[], progress)?;
+        let motion = stiffen_folds(motion, progress)?;
+        let layers = PieceLayers::default();
+        let holes = timed(
+            std::slice::from_ref(&self.matched),
+            &motion,
+            &layers,
+            progress,
+        )?;
+        let defects = MotionDefects::of(&motion, &holes, progress)?;
+        Ok(defects.folds == 0 && defects.crossings == 0)
     }
 
     /// Returns whether the piece as a whole turns by at most [`MAX_UPRIGHT_ROTATION`].
@@ -169,6 +178,23 @@ impl MatchCandidate {
         let rotation = (1.0 + self.defects.rotation.abs() / PI).powi(ROTATION_EXPONENT);
         let area = 1.0 + self.defects.swelling;
         self.distortion * turning * rotation * area
+    }
+}
+
+/// Returns the options with which a piece is rated.
+///
+/// Apart from `symmetric` and the homotopy, they are the default options, because requested ones
+/// such as the anchor refer to the whole design. The bounded homotopy is too expensive for a rating
+/// and is replaced by the polar one, which starts and ends with the same shapes.
+fn rating_options(options: &TransitionOptions) -> ArapOptions {
+    let homotopy = match options.arap.homotopy {
+        Homotopy::Bounded => Homotopy::Polar,
+        homotopy => homotopy,
+    };
+    ArapOptions {
+        homotopy,
+        symmetric: options.arap.symmetric,
+        ..ArapOptions::default()
     }
 }
 

@@ -22,7 +22,7 @@ pub(super) const LOW_DISTORTION: f64 = 1.02;
 /// of its match in `unpaired`, in which no holes are matched. Returns the better of the two.
 /// `unpaired` has one entry per piece or is empty.
 ///
-/// If `holes_touch`, holes stay matched as long as nothing folds or crosses. The gap between
+/// If `holes_touch`, holes stay matched as long as nothing has to fold or cross. The gap between
 /// touching holes has no width in one design, so the distortion of its faces has no meaning.
 ///
 /// # Errors
@@ -45,8 +45,11 @@ pub(super) fn slide_and_choose(
         let [first, second] =
             [(0.0, 0.5), (0.5, 1.0)].map(|(from, to)| ProgressSpan::new(&share, from, to));
         let mut best = slide_piece(paired, spec, &first)?;
-        if holes_touch && best.as_ref().is_ok_and(MatchCandidate::is_sound) {
-            return Ok(best);
+        if holes_touch
+            && let Ok(best) = &best
+            && best.can_be_sound(&spec.options, &second)?
+        {
+            return Ok(Ok(best.clone()));
         }
         // The two matches are compared only after sliding, because sliding can repair a match of
         // holes that folds, as between the letters D and P.

@@ -315,3 +315,54 @@ fn each_paint_has_its_own_field() {
         assert!(one.frame(0.5).figure().layers.is_empty());
     }
 }
+
+const BLACK: Rgb = Rgb([17, 17, 17]);
+const YELLOW: Rgb = Rgb([255, 209, 102]);
+
+/// A black cross, as a path.
+const CROSS: &str = "<path d='M44 25h12v19h19v12h-19v19h-12v-19h-19v-12h19z' fill='#111'/>";
+
+#[test]
+fn a_lone_part_is_paired_with_the_part_of_its_colour() {
+    let on_tile = drawing(&format!("{}{CROSS}", square(5.0, 5.0, 90.0, YELLOW)));
+    let disc = drawing("<circle cx='50' cy='50' r='33' fill='#111'/>");
+    for (source, target, at) in [(&on_tile, &disc, 0.3), (&disc, &on_tile, 0.7)] {
+        let transition = transition(source, target);
+        for t in [0.0, at, 0.5, 1.0] {
+            let layers = visible_layers(&transition, t);
+            let black: Vec<_> = layers.iter().filter(|(p, _)| *p == BLACK.into()).collect();
+            assert_eq!(black.len(), 1, "{layers:?}");
+            assert!(black[0].1 > 1000.0, "{layers:?}");
+            let others = layers.iter().filter(|(p, _)| *p != BLACK.into());
+            assert!(
+                others.clone().all(|(p, _)| *p == YELLOW.into()),
+                "{layers:?}"
+            );
+        }
+        let tile = |t: f64| visible_layers(&transition, t).len() - 1;
+        assert_eq!(tile(0.0) + tile(1.0), 1);
+    }
+}
+
+#[test]
+fn all_parts_of_one_colour_are_paired_with_the_parts_of_that_colour() {
+    let sign = format!("{}{CROSS}", square(5.0, 5.0, 90.0, YELLOW));
+    let lines = square(30.0, 20.0, 20.0, BLACK) + &square(30.0, 60.0, 20.0, BLACK);
+    let transition = transition_of(&sign, &lines);
+    for t in [0.2, 0.4, 0.6, 0.8] {
+        let layers = visible_layers(&transition, t);
+        let is_own = |paint: Paint| paint == BLACK.into() || paint == YELLOW.into();
+        assert!(layers.iter().all(|(paint, _)| is_own(*paint)), "{layers:?}");
+    }
+}
+
+#[test]
+fn a_lone_part_of_another_colour_is_paired_by_its_shape() {
+    let tile = square(5.0, 5.0, 90.0, Rgb([0, 128, 0]));
+    let sign = format!("{tile}{}", square(40.0, 40.0, 8.0, YELLOW));
+    // Red is as far from green as from yellow.
+    let transition = transition_of(&sign, &square(10.0, 10.0, 80.0, RED));
+    let half = visible_layers(&transition, 0.5);
+    let largest = half.iter().map(|(_, area)| *area).fold(0.0, f64::max);
+    assert!((6400.0..8100.0).contains(&largest), "{half:?}");
+}

@@ -259,3 +259,24 @@ fn absent_parts_are_not_drawn() {
         assert_eq!(rings(0.5), 2);
     }
 }
+
+#[test]
+fn holes_that_touch_in_a_corner_are_matched_like_others() {
+    let source = design(
+        "{\"rings\": [[[0,0],[200,0],[200,250],[0,250]], [[30,30],[20,120],[90,150]], \
+         [[90,210],[20,120],[70,220]], [[200,100],[150,80],[150,120]]]}",
+    );
+    let target = design(
+        "{\"rings\": [[[0,0],[220,20],[180,240],[20,230]], [[40,40],[100,40],[70,90]], \
+         [[60,140],[120,150],[80,200]], [[140,90],[170,120],[150,150]]]}",
+    );
+    let spec = TransitionSpec::new(source, target);
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    let pieces = &transition.matched().unwrap().pieces;
+    assert_eq!((pieces.len(), pieces[0].rings.len()), (1, 4));
+    for k in 0..=8 {
+        let rings = transition.frame(f64::from(k) / 8.0).figure().rings;
+        assert_eq!((rings.len(), count_crossings(&rings)), (4, 0), "{k}");
+    }
+    assert!((area(&transition.frame(0.0).figure().rings) / 44_450.0 - 1.0).abs() < 1e-6);
+}
