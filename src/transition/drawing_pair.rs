@@ -89,58 +89,53 @@ fn part_appearances(layers: &[PaintLayer]) -> Vec<PartAppearance> {
     looks.collect()
 }
 
-/// Words that drawing programs use, with or without a number, to name shapes automatically. Such
-/// names say nothing about what is drawn.
-const AUTOMATIC_NAMES: [&str; 40] = [
-    "a",
+/// Names of elements and layers that drawing programs assign automatically; they say nothing about
+/// what is drawn.
+const AUTOMATIC_NAMES: [&str; 12] = [
+    "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "shape", "vector", "layer",
+    "group", "g",
+];
+
+/// Words that drawing programs make automatic names of by adding a number.
+const NUMBERED_NAMES: [&str; 25] = [
     "artboard",
     "clippath",
     "combinedshape",
     "compoundpath",
     "curve",
     "element",
-    "ellipse",
-    "circle",
     "fill",
     "flowroot",
     "frame",
-    "g",
-    "group",
     "image",
-    "layer",
-    "layerx",
-    "line",
     "mask",
     "object",
     "oval",
     "page",
-    "path",
-    "polygon",
-    "polyline",
-    "rect",
     "rectangle",
-    "shape",
+    "star",
     "stroke",
     "subtract",
     "svg",
     "svgid",
     "symbol",
     "text",
-    "tspan",
     "union",
     "use",
-    "vector",
     "xmlid",
-    "star",
 ];
 
 /// Returns `name` if the author chose it, otherwise an empty string. A name counts as automatic if
-/// its letters are one of [`AUTOMATIC_NAMES`], as in `path12`, `Layer 1` or `SVGID_3_`, or if it is
-/// `0`, the name of the default layer of DXF files.
+/// its letters are one of [`AUTOMATIC_NAMES`], as in `path12` or `Layer 1`, if it is one of
+/// [`NUMBERED_NAMES`] with a number, as in `SVGID_3_`, or if it is `0`, the name of the default
+/// layer of DXF files.
 fn author_name(name: &str) -> String {
     let letters = name.chars().filter(|c| c.is_alphabetic());
     let word = letters.collect::<String>().to_lowercase();
-    let is_automatic = name == "0" || AUTOMATIC_NAMES.contains(&word.as_str());
+    let is_numbered = name.contains(|c: char| c.is_ascii_digit());
+    let is_automatic = name == "0"
+        || AUTOMATIC_NAMES.contains(&word.as_str())
+        || (is_numbered && NUMBERED_NAMES.contains(&word.as_str()));
     let given = if is_automatic { "" } else { name };
     given.to_owned()
 }

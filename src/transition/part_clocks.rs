@@ -138,13 +138,14 @@ fn part_at(
 impl SolidContent {
     /// Removes the time windows and easings of all parts, so that all parts move at the same time.
     fn take_clocks(&mut self) {
-        self.part_clocks = None;
-        // If the design is shown in one colour, its paint layer was added together with the clocks,
-        // so it is removed too.
-        self.paint_layers = self
-            .paint_layers
-            .take()
-            .filter(|layers| !has_no_paint(layers));
+        if self.part_clocks.take().is_some() {
+            // If the design is shown in one colour, its paint layer was added together with the
+            // clocks, so it is removed too.
+            self.paint_layers = self
+                .paint_layers
+                .take()
+                .filter(|layers| !is_single_plain_layer(layers));
+        }
     }
 
     /// Assigns a clock (time window and easing) to each loop, hole and vertex. A design in one
@@ -176,9 +177,9 @@ impl SolidContent {
     }
 }
 
-/// Returns whether no layer has a paint or a stroke.
-fn has_no_paint(layers: &PaintLayerStack) -> bool {
+/// Returns whether there is a single layer, and it has no paint and no stroke.
+fn is_single_plain_layer(layers: &PaintLayerStack) -> bool {
     let is_plain =
         |layer: &PlacedPaintLayer| layer.paints == [None; 2] && layer.strokes == [None; 2];
-    layers.layers.iter().all(is_plain)
+    layers.layers.len() == 1 && layers.layers.iter().all(is_plain)
 }
