@@ -45,7 +45,7 @@ pub use options::{ImportOptions, ImportOptionsError};
 pub use paint_layer::PaintLayer;
 pub use picture::Picture;
 pub use polygons::{PolygonsFault, PolygonsImportError};
-pub use silhouette::SilhouetteError;
+pub use silhouette::{PictureReading, SilhouetteCandidate, SilhouetteError, silhouette_candidates};
 pub use sniff::{UnknownFormat, sniff};
 pub use source::DesignSource;
 pub use svg::SvgError;

@@ -6,7 +6,7 @@ use super::options::ImportOptions;
 use super::paint_layer::PaintLayer;
 use super::picture::Picture;
 use super::silhouette;
-use super::silhouette::{PictureTones, SilhouetteError};
+use super::silhouette::{SilhouetteError, choose_tones};
 use super::truss::Truss;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError, Similarity};
 use crate::mesh::TriangleMesh;
@@ -131,11 +131,15 @@ impl Design {
         // tracing allocates its own memory.
         let outline_or_tones = match covered_area(&layers) {
             Some(regions) => Ok(regions),
-            None => Err(PictureTones::of(&pixels, options)?),
+            None => Err(choose_tones(&pixels, options)?),
+        };
+        let alternatives = match &outline_or_tones {
+            Ok(_) => None,
+            Err(chosen) => chosen.alternatives,
         };
         let given = pixels.dimensions();
         let picture = Picture::downscaled(pixels);
-        let regions = outline_or_tones.or_else(|tones| tones.regions(options))?;
+        let regions = outline_or_tones.or_else(|chosen| chosen.tones.regions(options))?;
         let kept = picture.pixels().dimensions();
         let smaller = (kept != given).then_some(ImportNote::ReducedPicture { given, kept });
         Ok(Self {
@@ -144,6 +148,7 @@ impl Design {
             picture: Some(picture),
             notes: (smaller.into_iter())
                 .chain(is_shaded.then_some(ImportNote::NoFlatColours))
+                .chain(alternatives.map(|[used, other]| ImportNote::Reading { used, other }))
                 .collect(),
             paint_layers: layers,
             ..Self::new(name, regions)

@@ -1,6 +1,7 @@
 //! Import notes: repairs, omissions and approximations made while a design was read,
 //! with one sentence of plain text for each.
 
+use super::silhouette::PictureReading;
 use crate::geometry::{DVec2, FillRule, Repairs};
 use crate::io::sanitize::SanitizedLine;
 use std::collections::BTreeMap;
@@ -73,6 +74,13 @@ pub enum ImportNote {
     },
     /// Separate paint layers for flat colours were requested, but the picture has no flat colours.
     NoFlatColours,
+    /// The silhouette of a picture can be read in two ways.
+    Reading {
+        /// Property of the pixels that was used.
+        used: PictureReading,
+        /// Property of the pixels that gives another silhouette.
+        other: PictureReading,
+    },
     /// Curves that do not close were ignored.
     OpenCurves {
         /// Number of ignored curves.
@@ -178,6 +186,10 @@ impl fmt::Display for ImportNote {
             Self::ReducedPicture { given, kept } => write_reduced(f, *given, *kept),
             Self::NoFlatColours => f.write_str(
                 "the picture has no flat colours; its silhouette was imported as one part",
+            ),
+            Self::Reading { used, other } => write!(
+                f,
+                "the silhouette was read by {used}, but could also be read by {other}; choose with reading = {other}"
             ),
             Self::OpenCurves { count, at } => {
                 write_ignored(f, *count, ["open curve", "open curves"])?;

@@ -1,5 +1,6 @@
 //! The import options: how pictures are traced and how precise outlines are.
 
+use super::silhouette::PictureReading;
 use serde::{Deserialize, Serialize};
 
 /// Settings for importing a design. All except `tolerance` and `strokes` apply to
@@ -7,11 +8,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ImportOptions {
-    /// Threshold between figure and background, from 1 to 255. It applies to the opacity of the
-    /// pixels if the picture has transparent pixels, otherwise to their grey level. If `None`, the
-    /// threshold is 128 for opacity and chosen by Otsu's method for grey levels.
+    /// Threshold between figure and background, from 1 to 255. It applies to the opacity, the grey
+    /// level or the colour distance of the pixels, as `reading` says. If `None`, the threshold is
+    /// 128 for opacity and otherwise chosen by Otsu's method.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threshold: Option<u8>,
+    /// Property of the pixels that separates the figure of a picture from its background.
+    #[serde(skip_serializing_if = "is_auto")]
+    pub reading: PictureReading,
     /// Whether figure and background of a picture are swapped.
     pub invert: bool,
     /// Islands and holes with fewer pixels than this are removed; 0 keeps all.
@@ -27,6 +31,10 @@ pub struct ImportOptions {
     /// visible when the drawing is shown in its own colours.
     #[serde(skip_serializing_if = "is_set")]
     pub strokes: bool,
+}
+
+fn is_auto(value: &PictureReading) -> bool {
+    *value == PictureReading::Auto
 }
 
 fn is_unset(value: &bool) -> bool {
@@ -53,6 +61,7 @@ impl Default for ImportOptions {
     fn default() -> Self {
         Self {
             threshold: None,
+            reading: PictureReading::Auto,
             invert: false,
             specks_px: 0,
             tolerance: Self::DEFAULT_TOLERANCE,

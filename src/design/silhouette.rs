@@ -1,18 +1,21 @@
 //! Importer of pictures: decodes them and traces the outline of the silhouette.
 //!
-//! In a picture with transparent pixels, opacity separates the figure from the background.
-//! Otherwise grey levels are separated by Otsu's threshold (Otsu 1979, "A threshold selection
-//! method from gray-level histograms"), and the class (lighter or darker) of most border pixels is
-//! the background. The boundary runs where the opacity or grey level, interpolated between pixel
+//! In a picture with a transparent border, opacity separates the figure from the background.
+//! Otherwise grey levels, or distances from the colour of the background, are separated by Otsu's
+//! threshold (Otsu 1979, "A threshold selection method from gray-level histograms"), and the class
+//! (lighter or darker) of most border pixels is the background. The submodule [`reading`] chooses. The boundary runs where the opacity or grey level, interpolated between pixel
 //! centres, crosses the threshold, so anti-aliased edges give sub-pixel accuracy.
 //!
 //! A pixel is one unit, the origin is the picture's lower left corner and y points up. A figure
 //! that reaches the border of the picture is closed along this border. One threshold applies to the
-//! whole picture, and colours of equal luminance are not distinguished; the submodule
-//! `flat_colours` can separate them.
+//! whole picture; the submodule `flat_colours` can separate several colours.
 
 pub(super) mod flat_colours;
 mod polygon_fit;
+mod reading;
+
+pub(super) use reading::choose_tones;
+pub use reading::{PictureReading, SilhouetteCandidate, silhouette_candidates};
 
 use self::polygon_fit::TracedPoint;
 use super::options::{ImportOptions, ImportOptionsError};
@@ -113,36 +116,6 @@ pub(super) struct PictureTones {
 }
 
 impl PictureTones {
-    /// Extracts the opacities or grey levels of a picture and chooses the threshold and the
-    /// background.
-    pub(super) fn of(
-        picture: &RgbaImage,
-        options: &ImportOptions,
-    ) -> Result<Self, SilhouetteError> {
-        let (width, height) = picture.dimensions();
-        let by_opacity = picture.pixels().any(|p| p.0[3] != u8::MAX);
-        // Lowest row first, because y points up.
-        let bytes: Vec<u8> = picture
-            .rows()
-            .rev()
-            .flatten()
-            .map(|p| if by_opacity { p.0[3] } else { luminance(p.0) })
-            .collect();
-        let threshold = match options.threshold {
-            Some(threshold) => threshold,
-            None if by_opacity => 128,
-            None => otsu(&bytes).ok_or(SilhouetteError::OneTone)?,
-        };
-        let above = by_opacity || !border_is_above(&bytes, width as usize, threshold);
-        Ok(Self {
-            width,
-            height,
-            bytes,
-            threshold,
-            above_is_figure: above != options.invert,
-        })
-    }
-
     /// Traces the silhouette, in pixels from the picture's lower left corner.
     pub(super) fn regions(self, options: &ImportOptions) -> Result<Regions, SilhouetteError> {
         let tolerance = options.tolerance * f64::from(self.width.max(self.height));

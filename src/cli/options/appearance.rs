@@ -4,6 +4,7 @@ use clap::Args;
 
 use crate::colour::Rgb;
 use crate::content::{BlendSpace, ColourMix};
+use crate::design::PictureReading;
 use crate::field::Metric;
 use crate::project::Project;
 use crate::transition::{
@@ -18,6 +19,11 @@ pub(super) struct ImportArgs {
     /// Grey level (or opacity) at which a picture's outline runs, 1 to 255 [default: automatic]
     #[arg(long, value_name = "TONE")]
     image_threshold: Option<u8>,
+
+    /// Property of the pixels that separates the figure of a picture from its background [default:
+    /// auto]
+    #[arg(long, value_parser = one_of::<PictureReading>())]
+    reading: Option<PictureReading>,
 
     /// Swap figure and background of pictures
     #[arg(long)]
@@ -47,6 +53,7 @@ impl ImportArgs {
         for design in &mut project.designs {
             let import = &mut design.import;
             set_if_given(&mut import.threshold, self.image_threshold.map(Some));
+            set_if_given(&mut import.reading, self.reading);
             set_if_given(&mut import.invert, self.invert.then_some(true));
             set_if_given(&mut import.specks_px, self.specks);
             set_if_given(&mut import.tolerance, self.tolerance);

@@ -22,7 +22,7 @@ const MAX_COLOURS: usize = 16;
 
 /// Difference in a channel, from 0 to 255, below which two colours count as equal (tolerance: JPEG
 /// noise).
-const SAME_COLOUR: u8 = 24;
+pub(super) const SAME_COLOUR: u8 = 24;
 
 /// Minimum fraction of the picture that a colour must cover to count as a flat colour (heuristic).
 const MIN_COLOUR_AREA: f64 = 0.0005;

@@ -301,3 +301,130 @@ fn stair_steps_are_smoothed_but_pixels_are_preserved() {
     let back: f64 = (0..ring.len()).map(turn).filter(|turn| *turn < 0.0).sum();
     assert!(back > -1.5, "{back}");
 }
+
+fn coloured(size: u32, pixel: impl Fn(i32, i32) -> [u8; 4]) -> RgbaImage {
+    RgbaImage::from_fn(size, size, |x, y| Rgba(pixel(x as i32, y as i32)))
+}
+
+/// Returns the design of a picture, imported with this reading.
+fn design_read_by(picture: &RgbaImage, reading: PictureReading) -> Design {
+    let options = ImportOptions {
+        reading,
+        ..ImportOptions::default()
+    };
+    Design::from_picture("p", picture.clone(), &options).expect("silhouette")
+}
+
+fn area_of(design: &Design) -> f64 {
+    design.outline(0.0).expect("area").area()
+}
+
+/// Returns whether a pixel lies in a disc about the middle of a picture 80 pixels wide.
+fn in_disc(x: i32, y: i32, radius: i32) -> bool {
+    let [dx, dy] = [2 * x - 79, 2 * y - 79];
+    dx * dx + dy * dy < 4 * radius * radius
+}
+
+const DISC: f64 = 400.0 * std::f64::consts::PI;
+
+#[test]
+fn nearly_opaque_pictures_are_read_by_brightness() {
+    // Some programs write 254 instead of 255, or a faint shadow over the whole picture.
+    for opacity in [254, 200, 129] {
+        let picture = coloured(80, |x, y| {
+            let grey = if in_disc(x, y, 20) { 20 } else { 240 };
+            [grey, grey, grey, if x > 40 { opacity } else { 255 }]
+        });
+        let design = design_read_by(&picture, PictureReading::Auto);
+        assert!((area_of(&design) / DISC - 1.0).abs() < 0.03, "{opacity}");
+        assert_eq!(design.notes, []);
+    }
+}
+
+#[test]
+fn a_tile_with_transparent_corners_is_read_by_brightness_and_reported() {
+    let tile = |mark: [u8; 4]| {
+        coloured(80, move |x, y| {
+            match (in_disc(x, y, 20), in_disc(x, y, 50)) {
+                (true, _) => mark,
+                (_, true) => [30, 60, 200, 255],
+                _ => [0; 4],
+            }
+        })
+    };
+    let icon = tile([255; 4]);
+    let design = design_read_by(&icon, PictureReading::Auto);
+    assert!((area_of(&design) / DISC - 1.0).abs() < 0.03);
+    let words = design.notes[0].to_string();
+    assert!(
+        words.contains("by brightness") && words.contains("reading = opacity"),
+        "{words}"
+    );
+    let whole = design_read_by(&icon, PictureReading::Opacity);
+    assert!(area_of(&whole) > 6000.0 && whole.notes.is_empty());
+    let candidates = silhouette_candidates(&icon, &ImportOptions::default()).expect("readings");
+    let kinds: Vec<_> = candidates
+        .iter()
+        .map(|candidate| candidate.reading)
+        .collect();
+    assert_eq!(kinds, [PictureReading::Brightness, PictureReading::Opacity]);
+    assert_eq!(candidates[1].regions.area(), area_of(&whole));
+    // A tile of one colour has nothing but its opacity.
+    let plain = design_read_by(&tile([30, 60, 200, 255]), PictureReading::Auto);
+    assert_eq!((area_of(&plain), plain.notes.len()), (area_of(&whole), 0));
+}
+
+#[test]
+fn a_coloured_figure_on_a_transparent_ground_is_read_by_opacity() {
+    let picture = coloured(80, |x, y| match (in_disc(x, y, 10), in_disc(x, y, 20)) {
+        (true, _) => [0, 0, 0, 255],
+        (_, true) => [255, 200, 60, 255],
+        _ => [255, 255, 255, 0],
+    });
+    let design = design_read_by(&picture, PictureReading::Auto);
+    assert!((area_of(&design) / DISC - 1.0).abs() < 0.03);
+    assert_eq!(design.notes, []);
+}
+
+#[test]
+fn a_faint_figure_is_read_by_its_opacity() {
+    let picture = coloured(80, |x, y| {
+        [0, 0, 0, if in_disc(x, y, 20) { 100 } else { 10 }]
+    });
+    let design = design_read_by(&picture, PictureReading::Auto);
+    assert!((area_of(&design) / DISC - 1.0).abs() < 0.03);
+}
+
+#[test]
+fn colours_of_equal_brightness_are_separated() {
+    let (red, green) = ([255, 0, 0, 255], [0, 76, 0, 255]);
+    assert_eq!(luminance(red), luminance(green));
+    let picture = coloured(80, |x, y| if in_disc(x, y, 20) { red } else { green });
+    // The same with the noise of a camera, which a threshold of brightness would trace.
+    let noisy = coloured(80, |x, y| {
+        let noise = ((x * 31 + y * 17) % 7) as u8;
+        let [r, g, _, a] = if in_disc(x, y, 20) { red } else { green };
+        [r.saturating_sub(noise), g + noise, noise, a]
+    });
+    for picture in [picture, noisy] {
+        let design = design_read_by(&picture, PictureReading::Auto);
+        assert!((area_of(&design) / DISC - 1.0).abs() < 0.03);
+        assert_eq!(design.notes, []);
+    }
+}
+
+#[test]
+fn a_figure_both_darker_and_lighter_than_its_ground_has_two_readings() {
+    // The left half of the disc is black, the right half white, on grey.
+    let picture = coloured(80, |x, y| match (in_disc(x, y, 20), x < 40) {
+        (true, true) => [0, 0, 0, 255],
+        (true, false) => [255, 255, 255, 255],
+        _ => [128, 128, 128, 255],
+    });
+    let design = design_read_by(&picture, PictureReading::Auto);
+    assert!(area_of(&design) < 0.6 * DISC);
+    let words = design.notes[0].to_string();
+    assert!(words.contains("reading = colour"), "{words}");
+    let whole = design_read_by(&picture, PictureReading::Colour);
+    assert!((area_of(&whole) / DISC - 1.0).abs() < 0.03);
+}
