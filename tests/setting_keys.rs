@@ -65,7 +65,8 @@ fn keys_match_those_in_existing_files() {
     check_choices::<Metric>("chessboard city-block euclidean quasi-euclidean");
     check_choices::<Homotopy>("bounded exponential linear linear-after-polar polar");
     check_choices::<FieldBoundary>("binary exact");
-    check_choices::<DesignFit>("auto as-drawn centred same-area");
+    check_choices::<PictureReading>("auto brightness colour opacity");
+    check_choices::<DesignFit>("as-drawn auto centred same-area");
     check_choices::<PlayMode>("loop once ping-pong");
     check_choices::<BuildQuality>("best draft");
     check_choices::<CollisionAvoidance>("guarded plain");

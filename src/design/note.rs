@@ -1,7 +1,7 @@
 //! Import notes: repairs, omissions and approximations made while a design was read,
 //! with one sentence of plain text for each.
 
-use super::silhouette::PictureReading;
+use super::options::PictureReading;
 use crate::geometry::{DVec2, FillRule, Repairs};
 use crate::io::sanitize::SanitizedLine;
 use std::collections::BTreeMap;
@@ -183,14 +183,9 @@ impl fmt::Display for ImportNote {
                 let many = "redundant points (repeated or on a straight edge)";
                 write_ignored(f, *n, [one, many])
             }
-            Self::ReducedPicture { given, kept } => write_reduced(f, *given, *kept),
-            Self::NoFlatColours => f.write_str(
-                "the picture has no flat colours; its silhouette was imported as one part",
-            ),
-            Self::Reading { used, other } => write!(
-                f,
-                "the silhouette was read by {used}, but could also be read by {other}; choose with reading = {other}"
-            ),
+            Self::ReducedPicture { .. } | Self::NoFlatColours | Self::Reading { .. } => {
+                self.write_picture_note(f)
+            }
             Self::OpenCurves { count, at } => {
                 write_ignored(f, *count, ["open curve", "open curves"])?;
                 write!(f, "; close the gap at ({}, {})", at.x, at.y)
@@ -256,6 +251,21 @@ impl ImportNote {
 }
 
 impl ImportNote {
+    /// Writes the notes that only pictures have.
+    fn write_picture_note(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ReducedPicture { given, kept } => write_reduced(f, *given, *kept),
+            Self::NoFlatColours => f.write_str(
+                "the picture has no flat colours; its silhouette was imported as one part",
+            ),
+            Self::Reading { used, other } => write!(
+                f,
+                "the silhouette was read by {used}, but could also be read by {other}; choose with reading = {other}"
+            ),
+            _ => Ok(()),
+        }
+    }
+
     /// Writes the notes that only maps in longitude and latitude have.
     fn write_map_note(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

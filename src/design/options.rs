@@ -1,6 +1,6 @@
 //! The import options: how pictures are traced and how precise outlines are.
 
-use super::silhouette::PictureReading;
+use crate::settings::named;
 use serde::{Deserialize, Serialize};
 
 /// Settings for importing a design. All except `tolerance` and `strokes` apply to
@@ -32,6 +32,28 @@ pub struct ImportOptions {
     #[serde(skip_serializing_if = "is_set")]
     pub strokes: bool,
 }
+
+/// Property of the pixels that separates the figure of a picture from its background.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum PictureReading {
+    /// The first of the other readings that separates figure and background.
+    #[default]
+    Auto,
+    /// Opaque pixels are the figure.
+    Opacity,
+    /// Pixels that are darker, or lighter, than the border of the picture are the figure.
+    Brightness,
+    /// Pixels whose colour differs from the one along the border are the figure.
+    Colour,
+}
+
+named! { PictureReading {
+    Auto: "auto", "Auto", "Opacity if it separates figure and background, otherwise brightness or colour";
+    Opacity: "opacity", "Opacity", "Opaque pixels are the figure";
+    Brightness: "brightness", "Brightness", "Pixels darker or lighter than the border are the figure";
+    Colour: "colour", "Colour", "Pixels of another colour than the border are the figure";
+} }
 
 fn is_auto(value: &PictureReading) -> bool {
     *value == PictureReading::Auto

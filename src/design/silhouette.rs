@@ -15,7 +15,7 @@ mod polygon_fit;
 mod reading;
 
 pub(super) use reading::choose_tones;
-pub use reading::{PictureReading, SilhouetteCandidate, silhouette_candidates};
+pub use reading::{SilhouetteCandidate, silhouette_candidates};
 
 use self::polygon_fit::TracedPoint;
 use super::options::{ImportOptions, ImportOptionsError};

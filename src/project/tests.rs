@@ -50,7 +50,6 @@ fn the_error_for_an_unknown_key_lists_all_keys() {
     for part in [
         "line 1: ",
         r#""bar\nwidth""#,
-        "fit",
         "bar-width",
         "match",
         "lattice",

@@ -8,7 +8,6 @@
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::drawing_pair::DrawingPair;
 use super::error::BuildError;
-use super::note::TransitionNote;
 use super::piece_coating;
 use super::piece_coating::PieceBoundaryLoops;
 use super::spec::TransitionSpec;
@@ -59,14 +58,9 @@ pub(super) fn build_boundary_paths(
         paint_layers,
         ..SolidContent::default()
     };
-    let are_names_ignored = matched
-        .as_ref()
-        .is_some_and(|(drawings, _)| drawings.are_names_ignored);
+    let note = matched.as_ref().and_then(|(drawings, _)| drawings.note());
     let built = BuiltWarp {
-        notes: are_names_ignored
-            .then_some(TransitionNote::NamesIgnored)
-            .into_iter()
-            .collect(),
+        notes: note.into_iter().collect(),
         matched: matched.map(|(_, matched)| matched),
         ..AnyWarp::Paths(Arc::new(paths)).into()
     };

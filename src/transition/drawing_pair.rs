@@ -1,6 +1,7 @@
 //! Prepares two designs for matching: the outlines of all parts of all paint layers, with their
 //! appearance.
 
+use super::note::TransitionNote;
 use crate::colour::{Gradient, Paint, StrokeStyle};
 use crate::correspondence::{PartAppearance, PartAppearances};
 use crate::design::{Design, PaintLayer};
@@ -43,6 +44,12 @@ impl DrawingPair {
             inks: layers.map(|layers| layers.iter().map(ink).collect()),
             are_names_ignored: false,
         })
+    }
+
+    /// Returns the note on what could not be taken into account.
+    pub(super) fn note(&self) -> Option<TransitionNote> {
+        self.are_names_ignored
+            .then_some(TransitionNote::NamesIgnored)
     }
 
     /// Creates a pair without appearances, for designs that are shown in one colour.

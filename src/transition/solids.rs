@@ -9,7 +9,6 @@ use super::arap_build::check_size;
 use super::cached_match;
 use super::drawing_pair::DrawingPair;
 use super::error::BuildError;
-use super::note::TransitionNote;
 use super::options::PaintRule;
 use super::piece_coating;
 use super::piece_coating::PieceBoundaryLoops;
@@ -68,12 +67,7 @@ pub(super) fn rigid_parts(
     }
     let solution = solved.as_ref().map(|solved| &solved.solution);
     let mut notes = solution.map_or_else(Vec::new, |solution| solution.notes.clone());
-    if drawings
-        .as_ref()
-        .is_some_and(|drawings| drawings.are_names_ignored)
-    {
-        notes.push(TransitionNote::NamesIgnored);
-    }
+    notes.extend(drawings.as_ref().and_then(DrawingPair::note));
     if let Some((solution, drawings)) = solution.zip(drawings) {
         let loops = PieceBoundaryLoops::of_mesh(arap.mesh());
         solid.paint_layers =

@@ -10,33 +10,10 @@
 
 use super::flat_colours::SAME_COLOUR;
 use super::{PictureTones, SilhouetteError, border_is_above, is_on_border, luminance, otsu};
-use crate::design::options::ImportOptions;
+use crate::design::options::{ImportOptions, PictureReading};
 use crate::geometry::Regions;
-use crate::settings::named;
 use image::{Rgba, RgbaImage};
 use std::collections::BTreeMap;
-
-/// Property of the pixels that separates the figure of a picture from its background.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum PictureReading {
-    /// The first of the other readings that separates figure and background.
-    #[default]
-    Auto,
-    /// Opaque pixels are the figure.
-    Opacity,
-    /// Pixels that are darker, or lighter, than the border of the picture are the figure.
-    Brightness,
-    /// Pixels whose colour differs from the one along the border are the figure.
-    Colour,
-}
-
-named! { PictureReading {
-    Auto: "auto", "Auto", "Opacity if it separates figure and background, otherwise brightness or colour";
-    Opacity: "opacity", "Opacity", "Opaque pixels are the figure";
-    Brightness: "brightness", "Brightness", "Pixels darker or lighter than the border are the figure";
-    Colour: "colour", "Colour", "Pixels of another colour than the border are the figure";
-} }
 
 /// Opacity from which a pixel counts as opaque, if the user gives no threshold.
 const OPAQUE: u8 = 128;

@@ -1,7 +1,7 @@
 //! Tests of decoding pictures, choosing the threshold, removing specks and tracing silhouettes.
 
 use super::*;
-use crate::design::{Design, DesignForm, ImportProblem, import};
+use crate::design::{Design, DesignForm, ImportProblem, PictureReading, import};
 use image::{GrayImage, Luma, Rgba};
 
 fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
