@@ -6,6 +6,7 @@ use std::fmt::{Debug, Display};
 
 use morphospace::content::{BlendSpace, ContentKind};
 use morphospace::correspondence::{HoleRule, PartRule};
+use morphospace::design::PictureReading;
 use morphospace::export::{Aspect, FilmKind, LayoutPreset, StillKind};
 use morphospace::field::Metric;
 use morphospace::measure::{MapMeasure, Quantity};

@@ -50,6 +50,7 @@ fn the_error_for_an_unknown_key_lists_all_keys() {
     for part in [
         "line 1: ",
         r#""bar\nwidth""#,
+        "fit",
         "bar-width",
         "match",
         "lattice",
@@ -70,7 +71,6 @@ fn options_are_written_at_the_top_level() {
         "bar-width",
         "designs",
         "field",
-        "fit",
         "style",
         "timing",
         "version",
