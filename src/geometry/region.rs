@@ -157,7 +157,7 @@ impl Regions {
             subject.simplify_shape_custom_as::<i64>(rule.into(), Default::default(), SOLVER);
         let shapes = shapes.into_iter();
         let shapes: Vec<Vec<Vec<DVec2>>> = shapes
-            .map(|shape| contours_of(shape, origin, smallest.edge))
+            .map(|shape| contours_of(shape, origin, &smallest))
             .collect();
         let contours: usize = shapes.iter().map(Vec::len).sum();
         let regions: Vec<Region> = shapes
@@ -287,10 +287,14 @@ impl SliverLimits {
     }
 }
 
-/// Returns the contours of one cleaned shape, the outer one first, with points closer than `edge`
-/// merged. Contours that touch themselves are split (see [`simple_loops`]).
-fn contours_of(shape: Vec<Vec<[f64; 2]>>, origin: DVec2, edge: f64) -> Vec<Vec<DVec2>> {
-    let is_same = |a: DVec2, b: DVec2| a.distance_squared(b) <= edge * edge;
+/// Returns the contours of one cleaned shape, the outer one first, with neighbouring points that
+/// nearly coincide merged. Contours that touch themselves are split (see [`simple_loops`]).
+fn contours_of(
+    shape: Vec<Vec<[f64; 2]>>,
+    origin: DVec2,
+    smallest: &SliverLimits,
+) -> Vec<Vec<DVec2>> {
+    let is_same = |a: DVec2, b: DVec2| a.distance_squared(b) <= smallest.edge * smallest.edge;
     let mut outer = None;
     let mut holes = Vec::new();
     for contour in shape {
@@ -301,7 +305,7 @@ fn contours_of(shape: Vec<Vec<[f64; 2]>>, origin: DVec2, edge: f64) -> Vec<Vec<D
         while points.len() > 1 && is_same(points[0], points[points.len() - 1]) {
             points.pop();
         }
-        let (first, others) = simple_loops(points, outer.is_none());
+        let (first, others) = simple_loops(points, outer.is_none(), smallest);
         match outer {
             None => outer = Some(first),
             Some(_) => holes.push(first),
@@ -330,8 +334,13 @@ fn region_from(contours: Vec<Vec<DVec2>>, smallest: &SliverLimits) -> Option<Reg
 
 /// Splits a contour that touches itself in corners into loops that do not. Returns the loop that is
 /// the contour of the region (`is_outer`) or one of its holes, and the other holes. A contour with
-/// loops that are no holes, as two squares that touch in a corner, is returned whole.
-fn simple_loops(contour: Vec<DVec2>, is_outer: bool) -> (Vec<DVec2>, Vec<Vec<DVec2>>) {
+/// loops that are no holes, as two squares that touch in a corner, or that are slivers is returned
+/// whole.
+fn simple_loops(
+    contour: Vec<DVec2>,
+    is_outer: bool,
+    smallest: &SliverLimits,
+) -> (Vec<DVec2>, Vec<Vec<DVec2>>) {
     let key = |p: DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits);
     let mut seen = HashSet::with_capacity(contour.len());
     if contour.iter().all(|&p| seen.insert(key(p))) {
@@ -356,7 +365,10 @@ fn simple_loops(contour: Vec<DVec2>, is_outer: bool) -> (Vec<DVec2>, Vec<Vec<DVe
     loops.sort_by(|a, b| area(b).abs().total_cmp(&area(a).abs()));
     // Loops inside the outer contour run the other way; the loops of holes run alike.
     let runs_as_first = |k: usize| (area(&loops[k]) > 0.0) == (area(&loops[0]) > 0.0);
-    if (1..loops.len()).any(|k| runs_as_first(k) == is_outer) {
+    let is_sliver = |points: &Vec<DVec2>| {
+        Ring::new(points.clone()).map_or(true, |ring| smallest.is_sliver(&ring))
+    };
+    if (1..loops.len()).any(|k| runs_as_first(k) == is_outer) || loops.iter().any(is_sliver) {
         return (contour, Vec::new());
     }
     let first = loops.remove(0);
