@@ -28,9 +28,10 @@ mod sniff;
 mod source;
 mod svg;
 mod truss;
+mod unit;
 
 pub use crate::io::read::{MAX_FILE_BYTES, ReadError};
-pub use dxf::{DxfError, DxfPlace};
+pub use dxf::{DxfEntities, DxfError, DxfNote, DxfPlace, LeftOut};
 pub use error::{ImportError, ImportProblem};
 pub use flatten::TooManyPoints;
 pub use form::{Design, DesignForm};
@@ -50,3 +51,4 @@ pub use sniff::{UnknownFormat, sniff};
 pub use source::DesignSource;
 pub use svg::SvgError;
 pub use truss::{Truss, TrussInputError, TrussLoad, TrussMaterial, TrussParts, TrussSupport};
+pub use unit::LengthUnit;

@@ -8,6 +8,7 @@ use super::picture::Picture;
 use super::silhouette;
 use super::silhouette::{SilhouetteError, choose_tones};
 use super::truss::Truss;
+use super::unit::LengthUnit;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError, Similarity};
 use crate::mesh::TriangleMesh;
 use image::RgbaImage;
@@ -38,6 +39,8 @@ pub struct Design {
     pub paint_layers: Vec<PaintLayer>,
     /// Repairs and omissions made during the import.
     pub notes: Vec<ImportNote>,
+    /// Unit of the coordinates, if the file declares one.
+    pub unit: Option<LengthUnit>,
 }
 
 /// Geometry of a design.
@@ -72,6 +75,7 @@ impl Design {
             picture: None,
             paint_layers: Vec::new(),
             notes: Vec::new(),
+            unit: None,
         }
     }
 
@@ -156,7 +160,7 @@ impl Design {
     }
 
     /// Returns the design transformed by a similarity. The new extent is the bounding box of the
-    /// transformed corners of the old extent.
+    /// transformed corners of the old extent. A scaled design has no unit.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
         let corners = self.extent.corners().map(|p| by.apply(p));
@@ -176,6 +180,7 @@ impl Design {
                 .map(|layer| layer.transformed(by))
                 .collect(),
             notes: self.notes.clone(),
+            unit: self.unit.filter(|_| by.scale == 1.0),
         }
     }
 

@@ -112,7 +112,7 @@ fn read(
             has_page: element.is_none(),
             ..svg::read(text(bytes)?, element, options)?.into_design(name)
         },
-        Format::Dxf => dxf::read(bytes, options.tolerance)?.into_design(name),
+        Format::Dxf => dxf::read(bytes, options)?.into_design(name),
         Format::Obj => Design::new(name, obj::read(text(bytes)?)?),
         Format::Polygons => polygons::read(text(bytes)?)?.into_design(name),
         Format::Truss => Design::new(name, Truss::from_json(text(bytes)?)?),

@@ -127,6 +127,60 @@ fn check_characters(font: &FontRef, text: &str) -> Result<(), TextError> {
     }
 }
 
+/// The bundled font, for single lines of text in a drawing. Lengths are in design units, 1000 per
+/// em.
+pub(super) struct LineFont {
+    font: FontRef<'static>,
+    /// Height of capital letters.
+    pub cap_height: f64,
+    /// Depth of descenders below the baseline.
+    pub descent: f64,
+}
+
+/// Line of text as closed polygons, filled by the non-zero rule. The text starts at the origin, on
+/// the baseline.
+pub(super) struct LetteredLine {
+    pub rings: Vec<Vec<DVec2>>,
+    /// Sum of the advances.
+    pub width: f64,
+}
+
+impl LineFont {
+    /// Returns the bundled font.
+    pub(super) fn bundled() -> Result<Self, TextError> {
+        let font = parsed_font(BUNDLED_FONT)?;
+        let metrics = font.metrics(Size::unscaled(), LocationRef::default());
+        let cap_height = metrics.cap_height.filter(|&height| height > 0.0);
+        let cap_height = cap_height.ok_or(TextError::Font("it lacks the height of capitals"))?;
+        let scale = EM / f64::from(metrics.units_per_em.max(1));
+        Ok(Self {
+            cap_height: scale * f64::from(cap_height),
+            descent: -scale * f64::from(metrics.descent).min(0.0),
+            font,
+        })
+    }
+
+    /// Returns whether the font has a glyph for a character.
+    pub(super) fn has_glyph(&self, character: char) -> bool {
+        let glyph = self.font.charmap().map(character);
+        glyph.is_some_and(|glyph| glyph != GlyphId::NOTDEF)
+    }
+
+    /// Converts a line of text to polygons. All its characters must have a glyph. `tolerance` is
+    /// the maximum deviation of flattened curves, as a fraction of the em.
+    pub(super) fn line(&self, text: &str, tolerance: f64) -> Result<LetteredLine, TextError> {
+        let line = TextLine::shape(&self.font, text)?;
+        let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * EM);
+        let baseline = DVec2::new(0.0, self.descent);
+        let mut rings = line.rings(&self.font, &mut flattener)?;
+        rings.iter_mut().flatten().for_each(|p| *p -= baseline);
+        Ok(LetteredLine {
+            rings,
+            width: line.page.max.x,
+        })
+    }
+}
+
 /// Line of text after shaping, in design units.
 struct TextLine {
     /// Glyphs with the positions of their origins, in design units.
@@ -186,12 +240,12 @@ impl TextLine {
         })
     }
 
-    /// Converts the glyphs to outlines and unites them.
-    fn to_outlines(&self, font: &FontRef, tolerance: f64) -> Result<ImportedOutlines, TextError> {
-        // The tolerance is a fraction of the page's longer side, but of at least one em, so that a
-        // single narrow letter is not flattened more finely than others.
-        let longer = self.page.size().max_element().max(EM);
-        let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * longer);
+    /// Converts the glyphs to closed polygons, to be filled by the non-zero rule.
+    fn rings(
+        &self,
+        font: &FontRef,
+        flattener: &mut Flattener,
+    ) -> Result<Vec<Vec<DVec2>>, TextError> {
         let glyphs = font.outline_glyphs();
         let mut rings = Vec::new();
         for &(glyph, origin) in &self.glyphs {
@@ -202,6 +256,16 @@ impl TextLine {
                 origin + self.scale * DVec2::new(p.x.into(), p.y.into())
             })?);
         }
+        Ok(rings)
+    }
+
+    /// Converts the glyphs to outlines and unites them.
+    fn to_outlines(&self, font: &FontRef, tolerance: f64) -> Result<ImportedOutlines, TextError> {
+        // The tolerance is a fraction of the page's longer side, but of at least one em, so that a
+        // single narrow letter is not flattened more finely than others.
+        let longer = self.page.size().max_element().max(EM);
+        let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * longer);
+        let rings = self.rings(font, &mut flattener)?;
         let regions = Regions::from_rings(&rings, FillRule::NonZero)?;
         Ok(ImportedOutlines {
             paint_layers: Vec::new(),

@@ -1,8 +1,9 @@
 //! Import notes: repairs, omissions and approximations made while a design was read,
 //! with one sentence of plain text for each.
 
+use super::dxf::DxfNote;
 use super::options::PictureReading;
-use crate::geometry::{DVec2, FillRule, Repairs};
+use crate::geometry::{FillRule, Repairs};
 use crate::io::sanitize::SanitizedLine;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -81,13 +82,6 @@ pub enum ImportNote {
         /// Property of the pixels that gives another silhouette.
         other: PictureReading,
     },
-    /// Curves that do not close were ignored.
-    OpenCurves {
-        /// Number of ignored curves.
-        count: usize,
-        /// Free end of one of the curves.
-        at: DVec2,
-    },
     /// Number of outlines whose longitudes were continued beyond ±180°, so that shapes at the
     /// antimeridian are whole.
     CrossesAntimeridian(usize),
@@ -104,6 +98,8 @@ pub enum ImportNote {
         /// Number of ignored objects of that type.
         count: usize,
     },
+    /// Omission or approximation of a DXF drawing.
+    Dxf(DxfNote),
 }
 
 impl ImportNote {
@@ -186,10 +182,6 @@ impl fmt::Display for ImportNote {
             Self::ReducedPicture { .. } | Self::NoFlatColours | Self::Reading { .. } => {
                 self.write_picture_note(f)
             }
-            Self::OpenCurves { count, at } => {
-                write_ignored(f, *count, ["open curve", "open curves"])?;
-                write!(f, "; close the gap at ({}, {})", at.x, at.y)
-            }
             Self::CrossesAntimeridian(_) | Self::CutAtAntimeridian | Self::PolarOutlines(_) => {
                 self.write_map_note(f)
             }
@@ -198,6 +190,7 @@ impl fmt::Display for ImportNote {
                     .map(|what| format!("{what} of type {}", SanitizedLine(kind)));
                 write_ignored(f, *count, kinds)
             }
+            Self::Dxf(note) => note.fmt(f),
             Self::Strokes(_)
             | Self::Texts(_)
             | Self::Font(_)
@@ -368,14 +361,6 @@ mod tests {
                 "2 duplicate outlines were ignored",
                 "1 redundant point (repeated or on a straight edge) was ignored",
             ]
-        );
-        let open = ImportNote::OpenCurves {
-            count: 2,
-            at: DVec2::new(1.5, -2.0),
-        };
-        assert_eq!(
-            open.to_string(),
-            "2 open curves were ignored; close the gap at (1.5, -2)"
         );
     }
 }

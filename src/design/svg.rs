@@ -45,6 +45,7 @@ mod xml_limits;
 mod z_order;
 
 pub use error::SvgError;
+pub(super) use ink_layers::{WindingRings, boolean, union};
 
 use super::flatten::MIN_TOLERANCE;
 use super::form::ImportedOutlines;

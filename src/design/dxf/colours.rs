@@ -1,90 +1,20 @@
-//! Resolves the colours of entities (their own, their layer's or their block's) and converts
-//! AutoCAD colour indices.
+//! Converts AutoCAD colour indices to red, green and blue.
 //!
 //! Colours are numbered by the AutoCAD colour index (DXF Reference): 1 to 6 are pure colours;
 //! 10 to 249 are hues in steps of 15°, with ten colours per hue (five brightnesses, each at
 //! full and at half saturation); 250 to 255 are greys. Index 7 is black or white, whichever
-//! contrasts with the background, and is imported as no colour.
+//! contrasts with the background; it is imported as black, as it is plotted on paper.
 
 use crate::colour::Rgb;
-use std::collections::HashMap;
-use std::rc::Rc;
 
-/// Layer and colour of an entity.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct EntityStyle {
-    /// Name of the layer.
-    pub layer: Rc<[u8]>,
-    pub colour: ColourSource,
-}
-
-/// Source of the colour of an entity.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum ColourSource {
-    /// The colour of the layer ("BYLAYER").
-    #[default]
-    OfLayer,
-    /// The colour of the enclosing block reference ("BYBLOCK").
-    OfBlock,
-    /// An explicit colour; `None` for index 7 or an invalid index.
-    Own(Option<Rgb>),
-}
-
-/// Colours of layers by name; `None` for index 7 or an invalid index.
-pub(super) type LayerColours = HashMap<Vec<u8>, Option<Rgb>>;
-
-/// Name of DXF's special layer. An entity on this layer, if it belongs to a block, gets the layer
-/// of the block reference.
-const OF_BLOCK: &[u8] = b"0";
-
-impl ColourSource {
-    /// Interprets the colour index `number` and the optional 24-bit colour `exact`, which takes
-    /// precedence.
-    pub fn of(number: i64, exact: Option<i64>) -> Self {
-        match (exact, number) {
-            (Some(bits), _) => Self::Own(Some(from_rgb_bits(bits))),
-            (None, 0) => Self::OfBlock,
-            (None, 256) => Self::OfLayer,
-            (None, number) => Self::Own(from_index(number)),
-        }
-    }
-}
-
-impl EntityStyle {
-    /// Returns this style with the layer and the colour that an entity of a block inherits from the
-    /// block reference. `outer` is the style of that reference, or `None` for an entity outside of
-    /// blocks, which inherits nothing.
-    pub fn inherited_from(&self, outer: Option<&Self>) -> Self {
-        let Some(outer) = outer else {
-            return self.clone();
-        };
-        let layer = match *self.layer == *OF_BLOCK {
-            true => Rc::clone(&outer.layer),
-            false => Rc::clone(&self.layer),
-        };
-        let colour = match self.colour {
-            ColourSource::OfBlock => outer.colour,
-            own => own,
-        };
-        Self { layer, colour }
-    }
-
-    /// Returns the colour; `None` for index 7, an invalid index, a layer without a colour, or
-    /// BYBLOCK outside of blocks.
-    pub fn rgb(&self, layers: &LayerColours) -> Option<Rgb> {
-        match self.colour {
-            ColourSource::OfLayer => layers.get(&*self.layer).copied().flatten(),
-            ColourSource::OfBlock => None,
-            ColourSource::Own(rgb) => rgb,
-        }
-    }
-}
+/// Colour of index 7 and of invalid indices: black, as on paper.
+pub(super) const BLACK: Rgb = Rgb([0; 3]);
 
 /// Converts a colour index; a negative index (layer off) has the same colour as its absolute value.
-/// Returns `None` for index 7 and for numbers that denote no colour: 0 and those above 255.
-pub(super) fn from_index(number: i64) -> Option<Rgb> {
-    let number = u8::try_from(number.unsigned_abs()).ok()?;
-    Some(Rgb(match number {
+/// Numbers that denote no colour, 0 and those above 255, count as index 7, black.
+pub(super) fn from_index(number: i64) -> Rgb {
+    let number = u8::try_from(number.unsigned_abs()).unwrap_or(7);
+    Rgb(match number {
         1 => [255, 0, 0],
         2 => [255, 255, 0],
         3 => [0, 255, 0],
@@ -100,8 +30,8 @@ pub(super) fn from_index(number: i64) -> Option<Rgb> {
         253 => [173; 3],
         254 => [214; 3],
         255 => [255; 3],
-        0 | 7 => return None,
-    }))
+        0 | 7 => return BLACK,
+    })
 }
 
 /// Converts a 24-bit colour with blue in the lowest byte and red in the highest.
@@ -148,12 +78,12 @@ mod tests {
             (253, [173, 173, 173]),
         ];
         for (number, rgb) in known {
-            assert_eq!(from_index(number), Some(Rgb(rgb)), "{number}");
+            assert_eq!(from_index(number), Rgb(rgb), "{number}");
         }
         assert_eq!(from_index(-1), from_index(1));
         assert_eq!(
             [from_index(7), from_index(256), from_index(i64::MIN)],
-            [None; 3]
+            [BLACK; 3]
         );
         assert_eq!(from_rgb_bits(0x00ff_8001), Rgb([255, 128, 1]));
     }

@@ -26,6 +26,8 @@ const MIN_BULGE: f64 = 1e-7;
 #[derive(Clone, Debug)]
 pub(super) enum DxfCurve {
     Line([DVec2; 2]),
+    /// Open or closed chain of straight lines.
+    Chain(Vec<DVec2>),
     Arc(EllipseArc),
     Spline(NurbsCurve),
 }
@@ -80,6 +82,9 @@ impl DxfCurve {
     pub fn transformed(&self, by: &DAffine2) -> Self {
         match self {
             Self::Line(ends) => Self::Line(ends.map(|p| by.transform_point2(p))),
+            Self::Chain(points) => {
+                Self::Chain(points.iter().map(|&p| by.transform_point2(p)).collect())
+            }
             Self::Arc(arc) => Self::Arc(EllipseArc {
                 centre: by.transform_point2(arc.centre),
                 u: by.transform_vector2(arc.u),
@@ -101,6 +106,7 @@ impl DxfCurve {
     /// Returns the number of control points; lines and arcs count as one.
     pub fn point_count(&self) -> usize {
         match self {
+            Self::Chain(points) => points.len(),
             Self::Line(_) | Self::Arc(_) => 1,
             Self::Spline(spline) => spline.control.len(),
         }
@@ -110,6 +116,7 @@ impl DxfCurve {
     pub fn hull(&self) -> Vec<DVec2> {
         match self {
             Self::Line(ends) => ends.to_vec(),
+            Self::Chain(points) => points.clone(),
             Self::Arc(arc) => {
                 let reach = arc.u.abs() + arc.v.abs();
                 vec![arc.centre - reach, arc.centre + reach]
@@ -127,6 +134,7 @@ impl DxfCurve {
     pub fn flatten(&self, tolerance: f64, points: &mut Vec<DVec2>) {
         match self {
             Self::Line(ends) => points.extend(ends),
+            Self::Chain(chain) => points.extend(chain),
             Self::Arc(arc) => arc.flatten(tolerance, points),
             Self::Spline(spline) => spline.flatten(tolerance, points),
         }
@@ -134,6 +142,17 @@ impl DxfCurve {
 }
 
 impl EllipseArc {
+    /// Creates a circular arc; angles are in radians.
+    pub fn circular(centre: DVec2, radius: f64, from: f64, sweep: f64) -> Self {
+        Self {
+            centre,
+            u: DVec2::new(radius, 0.0),
+            v: DVec2::new(0.0, radius),
+            from,
+            sweep,
+        }
+    }
+
     /// Returns the point at the fraction `share` of the sweep.
     fn at(&self, share: f64) -> DVec2 {
         let (sin, cos) = (self.from + share * self.sweep).sin_cos();

@@ -1,154 +1,112 @@
-//! Converts DXF entities to curves in the plane and to block references.
-//!
-//! An entity with an extrusion direction has its own coordinate system, defined by the "arbitrary
-//! axis algorithm" of the DXF Reference. Such an entity is projected onto the xy plane.
+//! Converts DXF entities to curves and areas in the plane and to block references.
 
-use super::colours::{ColourSource, EntityStyle};
-use super::curve::{DxfCurve, EllipseArc, NurbsCurve};
-use super::error::{DxfError, DxfPlace};
+use super::band::WideBand;
+use super::curve::{DxfCurve, EllipseArc};
+use super::error::DxfPlace;
+use super::hatch;
+use super::note::EntityRemark;
 use super::pairs::GroupPair;
-use crate::geometry::DVec2;
-use glam::{DAffine2, DMat2, DVec3};
+use super::record::{DxfRecord, EntityFault};
+use super::spline;
+use super::style::{EntityStyle, Inheritable, name_key};
+use crate::geometry::{DVec2, FillRule};
+use glam::{DAffine2, DMat2};
 use std::f64::consts::TAU;
+use std::rc::Rc;
 
-/// Entity with its layer and colour.
+/// Entity with its style.
 #[derive(Debug)]
 pub(super) struct DxfEntity {
     pub shape: EntityShape,
-    pub ink: EntityStyle,
+    pub style: EntityStyle,
+    /// Omission or approximation to report if the entity is visible.
+    pub remark: Option<Box<EntityRemark>>,
+    /// Name of the font of a text that was replaced by the bundled font.
+    pub font: Option<Rc<str>>,
 }
 
-/// Geometry of an entity: its own curves, or a reference to a block.
+/// Geometry of an entity: its own curves or area, or a reference to a block.
 #[derive(Debug)]
 pub(super) enum EntityShape {
+    /// Nothing: the entity is left out.
+    Nothing,
     /// Path of connected curves.
     Path {
         curves: Vec<DxfCurve>,
         is_closed: bool,
     },
+    /// Filled area.
+    Area(AreaLoops),
+    /// Letters of a text.
+    Letters(AreaLoops),
+    /// Polyline with a width.
+    Band(WideBand),
+    /// Several shapes with the same style.
+    Group(Vec<EntityShape>),
     /// Reference that places one or more copies of a block.
-    Insert {
-        /// Name of the block.
-        block: Vec<u8>,
-        /// For each copy, the affine map from block coordinates, with the base point as origin, to
-        /// the coordinate system that contains the reference.
-        places: Vec<DAffine2>,
-    },
+    Insert(BlockReference),
+}
+
+/// Closed loops of curves and the rule that decides what they enclose.
+#[derive(Debug)]
+pub(super) struct AreaLoops {
+    pub loops: Vec<Vec<DxfCurve>>,
+    pub rule: FillRule,
+}
+
+/// Reference to a block.
+#[derive(Debug)]
+pub(super) struct BlockReference {
+    /// Key of the name of the block.
+    pub block: Vec<u8>,
+    /// For each copy, the affine map from block coordinates to the coordinate system that contains
+    /// the reference.
+    pub places: Vec<DAffine2>,
+    /// Whether the base point of the block is moved to the origin first.
+    pub uses_base_point: bool,
+    /// Position of the reference in the file.
+    pub at: DxfPlace,
 }
 
 /// Maximum number of block copies that one INSERT makes (resource limit: a grid of 100 by 100;
 /// checked before memory for the copies is allocated).
 const MAX_COPIES: i64 = 10_000;
 
-/// Record of the file: an entity or table entry with its pairs of group code and value.
-pub(super) struct DxfRecord<'a> {
-    /// Type name, such as `LINE`.
-    pub kind: &'a [u8],
-    /// Position of the record in the file.
-    pub at: DxfPlace,
-    pub pairs: Vec<GroupPair<'a>>,
+/// Supported entity, or the reason why an entity is left out.
+pub(super) type ShapeOrReason = Result<EntityShape, &'static str>;
+
+/// Returns why entities of a type that is not supported are left out. The types are those of the
+/// DXF Reference; others are unknown.
+fn reason_to_leave_out(kind: &[u8]) -> &'static str {
+    match kind {
+        b"3DSOLID" | b"BODY" | b"REGION" | b"SURFACE" | b"EXTRUDEDSURFACE" | b"LOFTEDSURFACE"
+        | b"REVOLVEDSURFACE" | b"SWEPTSURFACE" | b"PLANESURFACE" | b"NURBSURFACE" => {
+            "left out: its ACIS data is not read; explode or trace it"
+        }
+        b"MESH" => "left out: meshes in space have no plane outline; explode it",
+        b"XLINE" | b"RAY" => "left out: it has no end; draw a line of finite length",
+        b"POINT" => "left out: it has no area",
+        b"WIPEOUT" => "left out: it hides nothing here; trim what it covers",
+        b"IMAGE" | b"OLEFRAME" | b"OLE2FRAME" | b"PDFUNDERLAY" | b"DWFUNDERLAY"
+        | b"DGNUNDERLAY" | b"PDFREFERENCE" | b"POINTCLOUD" | b"POINTCLOUDEX" => {
+            "left out: embedded and attached pictures are not read"
+        }
+        b"SHAPE" => "left out: its shape file is not read; explode it",
+        b"VIEWPORT" => "left out: views of other layouts are not drawn",
+        b"LIGHT" | b"SUN" | b"CAMERA" | b"SECTION" | b"GEOPOSITIONMARKER" => {
+            "left out: it has no outline"
+        }
+        _ => "left out: this type is not supported; explode it to lines and arcs",
+    }
 }
 
-impl<'a> DxfRecord<'a> {
-    /// Returns the first pair with the group code `code`.
-    fn first(&self, code: i32) -> Option<&GroupPair<'a>> {
-        self.pairs.iter().find(|pair| pair.code == code)
-    }
-
-    /// Returns the first real number with the group code `code`, or `default` if there is none.
-    pub fn real(&self, code: i32, default: f64) -> Result<f64, DxfError> {
-        self.first(code).map_or(Ok(default), GroupPair::real)
-    }
-
-    /// Returns the first integer with the group code `code`, or 0 if there is none.
-    pub fn integer(&self, code: i32) -> Result<i64, DxfError> {
-        self.first(code).map_or(Ok(0), GroupPair::integer)
-    }
-
-    /// Returns the first text with the group code `code`, or an empty text if there is none.
-    pub fn text(&self, code: i32) -> &'a [u8] {
-        self.first(code).map_or(b"", GroupPair::text)
-    }
-
-    /// Returns the layer and the colour source of the entity.
-    pub fn ink(&self) -> Result<EntityStyle, DxfError> {
-        let number = self.first(62).map_or(Ok(256), GroupPair::integer)?;
-        Ok(EntityStyle {
-            layer: self.text(8).into(),
-            colour: ColourSource::of(number, self.bits()?),
-        })
-    }
-
-    /// Returns the 24-bit colour (group code 420), if given.
-    pub fn bits(&self) -> Result<Option<i64>, DxfError> {
-        self.first(420).map(GroupPair::integer).transpose()
-    }
-
-    /// Returns the point whose x, y and z have the group codes `code`, `code + 10` and `code + 20`.
-    fn point(&self, code: i32) -> Result<DVec3, DxfError> {
-        Ok(DVec3::new(
-            self.real(code, 0.0)?,
-            self.real(code + 10, 0.0)?,
-            self.real(code + 20, 0.0)?,
-        ))
-    }
-
-    /// Returns all real numbers with the group code `code`, in file order.
-    fn reals(&self, code: i32) -> Result<Vec<f64>, DxfError> {
-        let pairs = self.pairs.iter().filter(|pair| pair.code == code);
-        pairs.map(GroupPair::real).collect()
-    }
-
-    /// Returns all points whose x has the group code `code` and whose y has `code + 10`.
-    fn points(&self, code: i32) -> Result<Vec<DVec2>, DxfError> {
-        let (xs, ys) = (self.reals(code)?, self.reals(code + 10)?);
-        if xs.len() != ys.len() {
-            return Err(self.inconsistency_error("a point lacks its x or y coordinate"));
-        }
-        Ok(xs.into_iter().zip(ys).map(DVec2::from).collect())
-    }
-
-    /// Returns the extrusion direction as a unit vector; +z if it has no length.
-    fn normal(&self) -> Result<DVec3, DxfError> {
-        // The z component of the direction defaults to 1, that of other points to 0.
-        let z = self.real(230, 1.0)?;
-        let given = self.point(210)?.with_z(z);
-        Ok(given.try_normalize().unwrap_or(DVec3::Z))
-    }
-
-    /// Returns the affine map to the xy plane of the drawing from the plane z = `elevation` of the
-    /// entity's own coordinate system.
-    fn plane_map(&self, elevation: f64) -> Result<DAffine2, DxfError> {
-        let normal = self.normal()?;
-        // The arbitrary axis algorithm of the DXF Reference prescribes the bound 1/64 for the
-        // choice of the reference axis.
-        let near_z = normal.x.abs() < 1.0 / 64.0 && normal.y.abs() < 1.0 / 64.0;
-        let reference_axis = if near_z { DVec3::Y } else { DVec3::Z };
-        let x_axis = reference_axis
-            .cross(normal)
-            .try_normalize()
-            .unwrap_or(DVec3::X);
-        let y_axis = normal.cross(x_axis);
-        Ok(DAffine2 {
-            matrix2: DMat2::from_cols(x_axis.truncate(), y_axis.truncate()),
-            translation: elevation * normal.truncate(),
-        })
-    }
-
-    /// Returns the error for an entity with inconsistent data; `what` describes the fault.
-    fn inconsistency_error(&self, what: &'static str) -> DxfError {
-        DxfError::Broken {
-            at: self.at,
-            kind: String::from_utf8_lossy(self.kind).into_owned(),
-            what,
-        }
-    }
-
-    /// Converts the entity to geometry; returns `None` for unsupported types.
+impl DxfRecord<'_> {
+    /// Converts the entity to geometry, or returns why it is left out.
     ///
-    /// POLYLINE is converted by [`Self::polyline`] because its vertices are separate records.
-    pub fn shape(&self) -> Result<Option<EntityShape>, DxfError> {
-        Ok(Some(match self.kind {
+    /// POLYLINE is converted by [`Self::polyline`] because its vertices are separate records, text
+    /// by [`TextReader`](super::text::TextReader) because it needs the table of text styles.
+    pub fn shape(&self) -> Result<ShapeOrReason, EntityFault> {
+        Ok(Ok(match self.kind {
             b"LINE" => open_path(DxfCurve::Line([
                 self.point(10)?.truncate(),
                 self.point(11)?.truncate(),
@@ -160,76 +118,106 @@ impl<'a> DxfRecord<'a> {
                 self.arc(from, positive_angle(from, to))?
             }
             b"ELLIPSE" => self.ellipse()?,
-            b"SPLINE" => return self.spline(),
+            b"SPLINE" => open_path(DxfCurve::Spline(spline::spline(self)?)),
+            b"HELIX" => {
+                let cut = |pair: &&GroupPair| !(pair.code == 100 && pair.text() == b"AcDbHelix");
+                let pairs = self.pairs.iter().take_while(cut).copied().collect();
+                let own = DxfRecord { pairs, ..*self };
+                open_path(DxfCurve::Spline(spline::spline(&own)?))
+            }
+            b"SOLID" | b"TRACE" => {
+                // The DXF Reference numbers the corners row by row.
+                let plan = self.plane_map(self.point(10)?.z)?;
+                self.quadrilateral([10, 11, 13, 12], &plan)?
+            }
+            b"3DFACE" => self.quadrilateral([10, 11, 12, 13], &DAffine2::IDENTITY)?,
+            b"HATCH" | b"MPOLYGON" => EntityShape::Area(hatch::loops(self)?),
+            b"MLINE" => self.multiline()?,
+            b"LEADER" => self.leader()?,
             b"INSERT" => self.insert()?,
-            _ => return Ok(None),
+            b"DIMENSION" | b"ARC_DIMENSION" | b"LARGE_RADIAL_DIMENSION" => self.dimension()?,
+            b"ACAD_TABLE" => self.table()?,
+            kind => return Ok(Err(reason_to_leave_out(kind))),
         }))
     }
 
-    /// Converts an LWPOLYLINE.
-    fn light_polyline(&self) -> Result<EntityShape, DxfError> {
-        let mut corners: Vec<PolylineVertex> = Vec::new();
-        for pair in &self.pairs {
-            match (pair.code, corners.last_mut()) {
-                (10, _) => {
-                    let point = DVec2::new(pair.real()?, 0.0);
-                    corners.push(PolylineVertex { point, bulge: 0.0 });
-                }
-                (20, Some(corner)) => corner.point.y = pair.real()?,
-                (42, Some(corner)) => corner.bulge = pair.real()?,
-                _ => {}
-            }
-        }
-        let plan = self.plane_map(self.real(38, 0.0)?)?;
-        Ok(polyline(&corners, self.integer(70)? & 1 != 0, &plan))
+    /// Returns the style of the entity and the treatment of its fill, if that is approximated.
+    pub fn style_and_remark(&self) -> Result<(EntityStyle, Option<EntityRemark>), EntityFault> {
+        let mut style = EntityStyle::of(self);
+        let what = match self.kind {
+            b"HATCH" | b"MPOLYGON" => hatch::replaced_fill(self)?.map(|fill| {
+                style.colour = fill.colour.map_or(style.colour, Inheritable::Own);
+                fill.what
+            }),
+            b"LEADER" if self.integer_or(71, 1)? != 0 => Some("drawn without its arrow".into()),
+            b"MLINE" => Some("drawn without caps and fill".into()),
+            _ => None,
+        };
+        Ok((style, what.map(|what| self.remark(what))))
     }
 
-    /// Converts a POLYLINE with its VERTEX records; returns `None` for a mesh.
-    pub fn polyline(&self, vertices: &[DxfRecord]) -> Result<Option<EntityShape>, DxfError> {
+    /// Converts an LWPOLYLINE.
+    fn light_polyline(&self) -> Result<EntityShape, EntityFault> {
+        let mut corners = PolylineVertex::list(&self.pairs)?;
+        let width = self.real(43, 0.0)?;
+        if width != 0.0 {
+            corners.iter_mut().for_each(|c| c.widths = [width; 2]);
+        }
+        let plan = self.plane_map(self.real(38, 0.0)?)?;
+        polyline(&corners, self.integer(70)? & 1 != 0, &plan)
+    }
+
+    /// Converts a POLYLINE with its VERTEX records, or returns why it is left out.
+    pub fn polyline(&self, vertices: &[DxfRecord]) -> Result<ShapeOrReason, EntityFault> {
         let flags = self.integer(70)?;
         if flags & (16 | 64) != 0 {
-            return Ok(None);
+            return Ok(Err("left out: meshes in space have no plane outline; explode it"));
         }
         let is_in_space = flags & 8 != 0;
+        let widths = [self.real(40, 0.0)?, self.real(41, 0.0)?];
         let mut corners = Vec::with_capacity(vertices.len());
         for vertex in vertices {
             if vertex.integer(70)? & 16 != 0 {
                 continue; // control point of a curve whose fitted vertices follow
             }
-            let bulge = match is_in_space {
-                true => 0.0,
-                false => vertex.real(42, 0.0)?,
+            let mut corner = PolylineVertex {
+                point: DVec2::new(vertex.real(10, 0.0)?, vertex.real(20, 0.0)?),
+                bulge: 0.0,
+                widths: [0.0; 2],
             };
-            let point = DVec2::new(vertex.real(10, 0.0)?, vertex.real(20, 0.0)?);
-            corners.push(PolylineVertex { point, bulge });
+            if !is_in_space {
+                corner.bulge = vertex.real(42, 0.0)?;
+                corner.widths = [vertex.real(40, widths[0])?, vertex.real(41, widths[1])?];
+            }
+            corners.push(corner);
         }
         let plan = match is_in_space {
             true => DAffine2::IDENTITY,
             false => self.plane_map(self.real(30, 0.0)?)?,
         };
-        Ok(Some(polyline(&corners, flags & 1 != 0, &plan)))
+        Ok(Ok(polyline(&corners, flags & 1 != 0, &plan)?))
     }
 
     /// Converts a CIRCLE or ARC with the given start angle and sweep in radians.
-    fn arc(&self, from: f64, sweep: f64) -> Result<EntityShape, DxfError> {
+    fn arc(&self, from: f64, sweep: f64) -> Result<EntityShape, EntityFault> {
         let centre = self.point(10)?;
         let radius = self.real(40, 0.0)?;
-        let arc = EllipseArc {
-            centre: centre.truncate(),
-            u: DVec2::new(radius, 0.0),
-            v: DVec2::new(0.0, radius),
-            from,
-            sweep,
-        };
+        if radius <= 0.0 {
+            return Err("its radius is not positive".into());
+        }
+        let arc = EllipseArc::circular(centre.truncate(), radius, from, sweep);
         Ok(arc_shape(arc, &self.plane_map(centre.z)?))
     }
 
     /// Converts an ELLIPSE.
-    fn ellipse(&self) -> Result<EntityShape, DxfError> {
+    fn ellipse(&self) -> Result<EntityShape, EntityFault> {
         let (centre, major) = (self.point(10)?, self.point(11)?);
         // An ELLIPSE is given in world coordinates, unlike a CIRCLE, so it needs no change of
         // coordinates, only the projection onto the xy plane.
         let minor = self.real(40, 1.0)? * self.normal()?.cross(major);
+        if minor.length() == 0.0 {
+            return Err("one of its axes has no length".into());
+        }
         let (from, to) = (self.real(41, 0.0)?, self.real(42, TAU)?);
         let arc = EllipseArc {
             centre: centre.truncate(),
@@ -241,24 +229,73 @@ impl<'a> DxfRecord<'a> {
         Ok(arc_shape(arc, &DAffine2::IDENTITY))
     }
 
-    /// Converts a SPLINE; returns `None` if it has only fit points.
-    fn spline(&self) -> Result<Option<EntityShape>, DxfError> {
-        let points = self.points(10)?;
-        if points.is_empty() {
-            return Ok(None);
+    /// Converts a quadrilateral or triangle. `codes` are the group codes of its corners in the
+    /// order of its boundary; a triangle repeats or omits the fourth corner of the file.
+    fn quadrilateral(&self, codes: [i32; 4], plan: &DAffine2) -> Result<EntityShape, EntityFault> {
+        let mut corners = Vec::with_capacity(4);
+        for code in codes {
+            let corner = match self.optional_point(code)? {
+                None if code == 13 => continue,
+                None => return Err("one of its corners is missing".into()),
+                Some(corner) => corner.truncate(),
+            };
+            corners.push(plan.transform_point2(corner));
         }
-        let degree = usize::try_from(self.integer(71)?).unwrap_or(0);
-        let (knots, weights) = (self.reals(40)?, self.reals(41)?);
-        let spline = NurbsCurve::new(degree, knots, &points, &weights).ok_or_else(|| {
-            self.inconsistency_error(
-                "its degree, knots, control points and weights are inconsistent",
-            )
-        })?;
-        Ok(Some(open_path(DxfCurve::Spline(spline))))
+        Ok(EntityShape::Area(AreaLoops {
+            loops: vec![vec![DxfCurve::Chain(corners)]],
+            rule: FillRule::NonZero,
+        }))
+    }
+
+    /// Converts an MLINE: one line for each element of its style.
+    fn multiline(&self) -> Result<EntityShape, EntityFault> {
+        let is_closed = self.integer(71)? & 2 != 0;
+        let mut lines: Vec<Vec<DVec2>> = Vec::new();
+        let (mut vertex, mut mitre) = (DVec2::ZERO, DVec2::ZERO);
+        // Number of the element, and whether the next parameter is its offset.
+        let (mut element, mut is_offset) = (0, false);
+        for pair in &self.pairs {
+            match pair.code {
+                11 => (vertex.x, element) = (pair.real()?, 0),
+                21 => vertex.y = pair.real()?,
+                13 => mitre.x = pair.real()?,
+                23 => mitre.y = pair.real()?,
+                74 => is_offset = pair.integer()? > 0,
+                41 if is_offset => {
+                    is_offset = false;
+                    if element == lines.len() {
+                        lines.push(Vec::new());
+                    }
+                    lines[element].push(vertex + pair.real()? * mitre);
+                    element += 1;
+                }
+                _ => {}
+            }
+        }
+        if lines.is_empty() {
+            return Err("it has no lines".into());
+        }
+        let path = |points: Vec<DVec2>| EntityShape::Path {
+            curves: vec![DxfCurve::Chain(points)],
+            is_closed,
+        };
+        Ok(EntityShape::Group(lines.into_iter().map(path).collect()))
+    }
+
+    /// Converts a LEADER to its line or spline.
+    fn leader(&self) -> Result<EntityShape, EntityFault> {
+        let points = self.points(10)?;
+        if points.len() < 2 {
+            return Err("it has fewer than two points".into());
+        }
+        Ok(open_path(match self.integer(72)? {
+            1 => DxfCurve::Spline(spline::through_fit_points(&points, [None; 2], false)?),
+            _ => DxfCurve::Chain(points),
+        }))
     }
 
     /// Converts an INSERT, a reference that places a grid of block copies.
-    fn insert(&self) -> Result<EntityShape, DxfError> {
+    fn insert(&self) -> Result<EntityShape, EntityFault> {
         let at = self.point(10)?;
         let plan = self.plane_map(at.z)?;
         let scale = DVec2::new(self.real(41, 1.0)?, self.real(42, 1.0)?);
@@ -266,7 +303,7 @@ impl<'a> DxfRecord<'a> {
         // A number of columns or rows of 0 means 1.
         let counts = [self.integer(70)?, self.integer(71)?].map(|n| n.max(1));
         if counts[0].saturating_mul(counts[1]) > MAX_COPIES {
-            return Err(self.inconsistency_error("it makes too many copies"));
+            return Err("it makes too many copies".into());
         }
         let spacing = DVec2::new(self.real(44, 0.0)?, self.real(45, 0.0)?);
         let mut places = Vec::new();
@@ -281,16 +318,44 @@ impl<'a> DxfRecord<'a> {
                 );
             }
         }
-        Ok(EntityShape::Insert {
-            block: self.text(2).to_owned(),
+        Ok(self.reference(places, true))
+    }
+
+    /// Converts a DIMENSION: a reference to the block that contains its lines and text.
+    fn dimension(&self) -> Result<EntityShape, EntityFault> {
+        if self.text(2).is_empty() {
+            return Err("it has no block with its lines and text".into());
+        }
+        // The block is drawn where the dimension is; a copy of a dimension moves it.
+        let moved = self.point(12)?;
+        let plan = self.plane_map(moved.z)?;
+        let place = plan * DAffine2::from_translation(moved.truncate());
+        Ok(self.reference(vec![place], false))
+    }
+
+    /// Converts an ACAD_TABLE: a reference to the block that contains its lines and text.
+    fn table(&self) -> Result<EntityShape, EntityFault> {
+        let at = self.point(10)?;
+        let along = self.optional_point(11)?.map(|direction| direction.truncate());
+        let along = along.and_then(DVec2::try_normalize).unwrap_or(DVec2::X);
+        let turned = DMat2::from_cols(along, along.perp());
+        let place = DAffine2::from_mat2_translation(turned, at.truncate());
+        Ok(self.reference(vec![place], true))
+    }
+
+    fn reference(&self, places: Vec<DAffine2>, uses_base_point: bool) -> EntityShape {
+        EntityShape::Insert(BlockReference {
+            block: name_key(self.text(2)),
             places,
+            uses_base_point,
+            at: self.at,
         })
     }
 }
 
 /// Returns the counter-clockwise angle from the direction `from` to the direction `to`, in (0, 2π]
 /// radians.
-fn positive_angle(from: f64, to: f64) -> f64 {
+pub(super) fn positive_angle(from: f64, to: f64) -> f64 {
     let sweep = (to - from).rem_euclid(TAU);
     // Directions that are equal up to rounding errors mean a full turn.
     if sweep <= 1e-12 { TAU } else { sweep }
@@ -313,25 +378,71 @@ fn arc_shape(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
     }
 }
 
-struct PolylineVertex {
-    point: DVec2,
-    /// Bulge of the line or arc that starts at this vertex: the tangent of a quarter of the arc's
-    /// angle, or 0 for a line.
-    bulge: f64,
+/// Vertex of a polyline, with the properties of the line or arc that starts there.
+#[derive(Clone, Copy)]
+pub(super) struct PolylineVertex {
+    pub point: DVec2,
+    /// Tangent of a quarter of the arc's angle, or 0 for a line.
+    pub bulge: f64,
+    /// Widths at the start and at the end.
+    pub widths: [f64; 2],
 }
 
-/// Returns the path through the vertices of a polyline, transformed by `plan`, the affine map to
-/// the xy plane of the drawing.
-fn polyline(corners: &[PolylineVertex], is_closed: bool, plan: &DAffine2) -> EntityShape {
+impl PolylineVertex {
+    /// Reads the vertices of a polyline from a list of pairs.
+    pub fn list(pairs: &[GroupPair]) -> Result<Vec<Self>, EntityFault> {
+        let mut corners: Vec<Self> = Vec::new();
+        for pair in pairs {
+            match (pair.code, corners.last_mut()) {
+                (10, _) => corners.push(Self {
+                    point: DVec2::new(pair.real()?, 0.0),
+                    bulge: 0.0,
+                    widths: [0.0; 2],
+                }),
+                (20, Some(corner)) => corner.point.y = pair.real()?,
+                (40, Some(corner)) => corner.widths[0] = pair.real()?,
+                (41, Some(corner)) => corner.widths[1] = pair.real()?,
+                (42, Some(corner)) => corner.bulge = pair.real()?,
+                _ => {}
+            }
+        }
+        Ok(corners)
+    }
+}
+
+/// Returns the sides of a polyline.
+pub(super) fn polyline_curves(
+    corners: &[PolylineVertex],
+    is_closed: bool,
+) -> impl Iterator<Item = DxfCurve> {
     // An open polyline has one line or arc fewer than it has vertices.
     let last = corners.len().saturating_sub(1);
     let sides = if is_closed { corners.len() } else { last };
-    let side = |i: usize| {
+    (0..sides).map(|i| {
         let (a, b) = (&corners[i], &corners[(i + 1) % corners.len()]);
-        DxfCurve::from_bulge(a.point, b.point, a.bulge).transformed(plan)
-    };
-    EntityShape::Path {
-        curves: (0..sides).map(side).collect(),
-        is_closed,
+        DxfCurve::from_bulge(a.point, b.point, a.bulge)
+    })
+}
+
+/// Returns the path through the vertices of a polyline, or the band along it if it has a width,
+/// transformed by `plan`, the affine map to the xy plane of the drawing.
+fn polyline(
+    corners: &[PolylineVertex],
+    is_closed: bool,
+    plan: &DAffine2,
+) -> Result<EntityShape, EntityFault> {
+    if corners.len() < 2 {
+        return Err("it has fewer than two vertices".into());
     }
+    let curves = polyline_curves(corners, is_closed);
+    if corners.iter().all(|corner| corner.widths == [0.0; 2]) {
+        let curves = curves.map(|curve| curve.transformed(plan)).collect();
+        return Ok(EntityShape::Path { curves, is_closed });
+    }
+    Ok(EntityShape::Band(WideBand {
+        curves: curves.collect(),
+        widths: corners.iter().map(|corner| corner.widths.map(f64::abs)).collect(),
+        is_closed,
+        place: *plan,
+    }))
 }

@@ -1,8 +1,8 @@
 //! Errors of the DXF importer, the limits that they mention, and positions in a file.
 
+use super::note::LeftOut;
 use crate::design::flatten::TooManyPoints;
-use crate::design::note::OtherKinds;
-use crate::geometry::{DVec2, RegionsError};
+use crate::geometry::RegionsError;
 use std::fmt;
 
 /// Maximum number of entities and polyline vertices in the file (resource limit: a few hundred
@@ -10,9 +10,16 @@ use std::fmt;
 /// point, and two for each block copy; twice this maximum is then allowed.
 pub(super) const MAX_OBJECTS: usize = 1_000_000;
 
-/// Maximum nesting depth of blocks (resource limit: expansion recurses, and a block may contain
-/// itself).
+/// Maximum nesting depth of blocks (resource limit: expansion recurses).
 pub(super) const MAX_DEPTH: usize = 16;
+
+/// Returns an error if a count exceeds its maximum.
+pub(super) fn check_count(count: usize, max: usize) -> Result<(), DxfError> {
+    match count > max {
+        true => Err(DxfError::TooMany),
+        false => Ok(()),
+    }
+}
 
 /// Error of importing a DXF drawing.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -24,49 +31,17 @@ pub enum DxfError {
     /// The file is incomplete.
     #[error("{0}: the file is incomplete; save or copy it again")]
     Truncated(DxfPlace),
-    /// A value is not a number, or its absolute value exceeds [`MAX_COORDINATE`].
-    ///
-    /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
-    #[error("{0}: expected a number from -1e18 to 1e18; correct it or scale the drawing")]
-    Number(DxfPlace),
-    /// An entity has inconsistent data.
-    #[error("{at}: {kind} cannot be used: {what}; correct or remove it")]
-    Broken {
-        /// Position of the entity.
-        at: DxfPlace,
-        /// Type name as written in the file.
-        kind: String,
-        /// Fault of the entity, as worded in the message.
-        what: &'static str,
-    },
     /// The drawing has too many objects, including copies of blocks.
     #[error(
         "the drawing has more than {MAX_OBJECTS} objects, including copies of blocks; save only its outlines"
     )]
     TooMany,
-    /// Blocks are nested too deeply or contain themselves.
-    #[error(
-        "blocks are nested more than {MAX_DEPTH} levels deep, or a block contains itself; explode them"
-    )]
-    TooDeep,
     /// The curves need too many points.
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
-    /// The drawing has no supported curves, or all of them lie in one point. Holds the number of
-    /// ignored entities of each type.
-    #[error("the drawing has no lines, arcs or curves{0}; draw or explode the outlines")]
-    Nothing(OtherKinds),
-    /// The curves form no closed ring.
-    #[error(
-        "no curves form a closed outline: one of {count} has a free end at ({}, {}); join the curves end to end",
-        at.x, at.y
-    )]
-    Open {
-        /// Number of open curves in the drawing.
-        count: usize,
-        /// Free end of one of the curves.
-        at: DVec2,
-    },
+    /// Nothing of the drawing can be used, or all of it lies in one point.
+    #[error("the drawing has nothing that can be drawn{0}")]
+    Nothing(LeftOut),
     /// The outlines enclose no area.
     #[error(transparent)]
     Regions(#[from] RegionsError),

@@ -1,23 +1,26 @@
 //! Joins open curves end to end into closed rings.
 //!
 //! End points closer than a given distance form one node of a graph. Curves with a free end are
-//! removed repeatedly until every node joins at least two curves. The remaining curves are
-//! traversed, and whenever the traversal returns to a node, a ring is closed. Where more than two
-//! curves meet, the choice of the next curve is arbitrary. If the number of curves at the node is
-//! even, the choice does not change the area under the even-odd rule.
+//! removed repeatedly until every node joins at least two curves. Of the remaining curves, a
+//! connected set in which an odd number of curves meet at some node is a network, such as the walls
+//! of a plan: no set of rings uses each of its curves once, so it forms no rings. The other curves
+//! are traversed, and whenever the traversal returns to a node, a ring is closed. Where four or
+//! more curves meet, the choice of the next curve is arbitrary; it does not change the area under
+//! the even-odd rule.
 
 use crate::geometry::DVec2;
 use std::collections::{HashMap, HashSet};
 
-/// Closed rings of joined curves, and one end point of each curve that belongs to no ring.
+/// Closed rings of joined curves, and the curves that belong to no ring.
 #[derive(Debug, Default)]
 pub(super) struct JoinedCurves {
     /// Closed rings; the last point of a ring is not its first.
     pub rings: Vec<Vec<DVec2>>,
     /// For each ring, the indices of its curves in the input.
     pub ring_curves: Vec<Vec<usize>>,
-    /// For each curve that belongs to no ring, one of its end points.
-    pub loose_ends: Vec<DVec2>,
+    /// Indices of the curves in the input that belong to no ring, in ascending order; duplicates
+    /// are not among them.
+    pub loose: Vec<usize>,
     /// Number of duplicate curves that were ignored.
     pub duplicates: usize,
 }
@@ -28,13 +31,17 @@ pub(super) fn join_curves(curves: Vec<Vec<DVec2>>, within: f64) -> JoinedCurves 
     let mut result = JoinedCurves::default();
     let (curves, indices) = result.without_duplicates(curves);
     let mut graph = EndpointGraph::of(&curves, within);
-    result.loose_ends = graph.remove_loose(&curves);
+    graph.remove_loose();
+    graph.remove_networks();
+    let is_loose = graph.is_used.clone();
     for start in 0..curves.len() {
         graph.trace(start, &curves, &mut result);
     }
     for curve in result.ring_curves.iter_mut().flatten() {
         *curve = indices[*curve];
     }
+    let loose = indices.into_iter().zip(is_loose);
+    result.loose = loose.filter_map(|(index, is)| is.then_some(index)).collect();
     result
 }
 
@@ -91,20 +98,16 @@ impl EndpointGraph {
         }
     }
 
-    /// Repeatedly removes curves with a free end until no curve has one; returns the free end of
-    /// each removed curve.
-    fn remove_loose(&mut self, curves: &[Vec<DVec2>]) -> Vec<DVec2> {
+    /// Repeatedly removes curves with a free end until no curve has one.
+    fn remove_loose(&mut self) {
         let mut degree: Vec<usize> = self.curves_at.iter().map(Vec::len).collect();
         let mut free_nodes: Vec<usize> = (0..degree.len()).filter(|&p| degree[p] == 1).collect();
-        let mut loose = Vec::new();
         while let Some(place) = free_nodes.pop() {
             let Some(curve) = self.unused_at(place) else {
                 continue; // the curve was already removed from its other end
             };
             self.is_used[curve] = true;
             let [first, last] = self.ends[curve];
-            let points = &curves[curve];
-            loose.push(points[if first == place { 0 } else { points.len() - 1 }]);
             let other = if first == place { last } else { first };
             // The removal may leave one more curve with a free end. A closed curve counts twice at
             // its node and so is never removed.
@@ -113,7 +116,25 @@ impl EndpointGraph {
                 free_nodes.push(other);
             }
         }
-        loose
+    }
+
+    /// Removes all curves that are connected to a node at which an odd number of curves meet.
+    fn remove_networks(&mut self) {
+        let is_used = &self.is_used;
+        let degree = |place: usize| {
+            let curves = self.curves_at[place].iter();
+            curves.filter(|&&curve| !is_used[curve]).count()
+        };
+        let mut nodes: Vec<usize> = (0..self.curves_at.len())
+            .filter(|&place| degree(place) % 2 == 1)
+            .collect();
+        while let Some(place) = nodes.pop() {
+            for &curve in &self.curves_at[place] {
+                if !std::mem::replace(&mut self.is_used[curve], true) {
+                    nodes.extend(self.ends[curve]);
+                }
+            }
+        }
     }
 
     /// Returns a curve that ends at the node `place` and has been neither removed nor traversed;
@@ -165,8 +186,6 @@ impl EndpointGraph {
             }
             next = self.unused_at(here);
         }
-        let open_ends = trail.iter().flat_map(|step| step.points(curves).next());
-        result.loose_ends.extend(open_ends);
     }
 }
 
@@ -258,7 +277,7 @@ mod tests {
         let found = join_curves(lines.iter().map(|l| curve(l)).collect(), 0.1);
         assert_eq!(found.rings.len(), 1);
         assert_eq!(found.rings[0].len(), 4);
-        assert_eq!((found.duplicates, found.loose_ends.len()), (1, 0));
+        assert_eq!((found.duplicates, found.loose), (1, vec![]));
     }
 
     #[test]
@@ -270,7 +289,7 @@ mod tests {
             curve(&[(4, 4), (0, 0)]),
         ];
         let found = join_curves(lines.to_vec(), 0.1);
-        assert_eq!((found.rings.len(), found.loose_ends.len()), (1, 2));
+        assert_eq!((found.rings.len(), found.loose), (1, vec![1, 2]));
     }
 
     #[test]
@@ -283,7 +302,7 @@ mod tests {
             curve(&[(1, 5), (0, 0), (0, 0)]),
         ];
         let found = join_curves(lines, 0.1);
-        assert_eq!((found.rings.len(), found.loose_ends.len()), (3, 0));
+        assert_eq!((found.rings.len(), found.loose), (3, vec![]));
     }
 
     #[test]
@@ -294,6 +313,19 @@ mod tests {
         ];
         assert_eq!(join_curves(lines.clone(), 2.0).rings.len(), 1);
         let apart = join_curves(lines, 0.5);
-        assert_eq!((apart.rings.len(), apart.loose_ends.len()), (0, 2));
+        assert_eq!((apart.rings.len(), apart.loose), (0, vec![0, 1]));
+    }
+
+    #[test]
+    fn a_network_of_lines_forms_no_rings() {
+        // A square with a wall across it, and a square apart.
+        let square = |x: i32| {
+            let corners = [(x, 0), (x + 4, 0), (x + 4, 4), (x, 4)];
+            (0..4).map(move |k| curve(&[corners[k], corners[(k + 1) % 4]]))
+        };
+        let wall = curve(&[(0, 0), (4, 4)]);
+        let lines = square(0).chain([wall]).chain(square(9)).collect();
+        let found = join_curves(lines, 0.1);
+        assert_eq!((found.rings.len(), found.loose), (1, vec![0, 1, 2, 3, 4]));
     }
 }

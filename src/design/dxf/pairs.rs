@@ -4,6 +4,7 @@
 //! Text values are slices of the file, so nothing is copied.
 
 use super::error::{DxfError, DxfPlace};
+use super::record::EntityFault;
 use crate::geometry::MAX_COORDINATE;
 
 /// Signature with which a binary DXF file begins.
@@ -38,7 +39,7 @@ impl<'a> GroupPair<'a> {
     }
 
     /// Returns the value as a real number.
-    pub fn real(&self) -> Result<f64, DxfError> {
+    pub fn real(&self) -> Result<f64, EntityFault> {
         let number = match self.value {
             GroupValue::Number(number) => Some(number),
             GroupValue::Text(text) => std::str::from_utf8(text).ok().and_then(|t| t.parse().ok()),
@@ -46,11 +47,14 @@ impl<'a> GroupPair<'a> {
         // The limit also applies to angles and spline knots, so that all arithmetic stays finite.
         // The comparison also rejects NaN.
         let number = number.filter(|n: &f64| n.abs() <= MAX_COORDINATE);
-        number.ok_or(DxfError::Number(self.at))
+        number.ok_or(EntityFault {
+            at: Some(self.at),
+            reason: "a value is not a number from -1e18 to 1e18",
+        })
     }
 
     /// Returns the value as an integer; a fraction is truncated.
-    pub fn integer(&self) -> Result<i64, DxfError> {
+    pub fn integer(&self) -> Result<i64, EntityFault> {
         Ok(self.real()? as i64)
     }
 }

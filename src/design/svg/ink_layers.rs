@@ -14,7 +14,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 
 /// Closed polygons, filled by the non-zero winding rule.
-pub(super) type WindingRings = Vec<Vec<DVec2>>;
+pub(in crate::design) type WindingRings = Vec<Vec<DVec2>>;
 
 /// Shapes sorted into alternating layers: even layers are ink, odd layers are paper (white shapes,
 /// which erase the ink below them).
@@ -85,7 +85,7 @@ const UNION_BATCH: usize = 8;
 
 /// Returns the union of shapes. Unites small batches separately, which removes their inner edges,
 /// and then unites the results.
-pub(super) fn union(mut shapes: Vec<WindingRings>) -> WindingRings {
+pub(in crate::design) fn union(mut shapes: Vec<WindingRings>) -> WindingRings {
     while shapes.len() > 1 {
         let unite = |batch: &[WindingRings]| match batch {
             [one] => one.clone(),
@@ -103,7 +103,11 @@ pub(super) fn difference(rings: &WindingRings, others: &WindingRings) -> Winding
 
 /// Performs a Boolean operation on two areas, both filled by the non-zero rule. Returns no rings if
 /// `subject` is empty.
-fn boolean(subject: &WindingRings, clip: &WindingRings, rule: OverlayRule) -> WindingRings {
+pub(in crate::design) fn boolean(
+    subject: &WindingRings,
+    clip: &WindingRings,
+    rule: OverlayRule,
+) -> WindingRings {
     if subject.is_empty() {
         return Vec::new();
     }

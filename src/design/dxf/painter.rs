@@ -1,0 +1,269 @@
+//! Turns the flattened drawing into its silhouette and its paint layers.
+//!
+//! The silhouette is the union of the closed outlines (even-odd over all of them), the areas and
+//! the lines. Each combination of layer, colour and opacity is a group of its own: its outlines and
+//! areas are stacked by containment, its lines lie above all areas, its letters above all lines.
+
+use super::DxfImport;
+use super::band::Pen;
+use super::encoding::decode;
+use super::error::DxfError;
+use super::expansion::DxfDrawing;
+use super::hidden_lines::{InnerContent, InnerLine};
+use super::note::DxfNote;
+use super::sheet::{OutlineRing, Sheet, SheetScale};
+use super::style::{DEFAULT_WEIGHT, ResolvedStyle};
+use crate::colour::Paint;
+use crate::design::flatten::{Flattener, TooManyPoints};
+use crate::design::form::ImportedOutlines;
+use crate::design::note::ImportNote;
+use crate::design::paint_layer::{PaintGroup, PaintLayer, stack_by_containment};
+use crate::design::svg::{WindingRings, union};
+use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+/// Paints a flattened drawing. Lines are part of the silhouette if `strokes` is true, and of the
+/// paint layers in any case.
+pub(super) fn paint(
+    drawing: DxfDrawing,
+    sheet: Sheet,
+    scale: SheetScale,
+    strokes: bool,
+) -> Result<DxfImport, DxfError> {
+    let mut painter = SheetPainter {
+        drawing,
+        sheet,
+        scale,
+    };
+    let mut notes = painter.line_notes(strokes);
+    if strokes {
+        let count = painter.open_hiding_outlines();
+        notes.extend((count > 0).then_some(ImportNote::Dxf(DxfNote::OutlinesAsLines(count))));
+    }
+    let groups = painter.groups()?;
+    let outlines = match painter.sheet.rings.is_empty() {
+        true => None,
+        false => match Regions::from_rings_reporting(&painter.ring_points(), FillRule::EvenOdd) {
+            Err(RegionsError::Empty) => None,
+            found => Some(found?),
+        },
+    };
+    let (outlines, mut repairs) = outlines.unzip();
+    let shown = groups.values().flat_map(|group| group.areas(strokes));
+    let all = outlines.iter().map(rings_of).chain(shown.cloned()).collect();
+    let regions = match Regions::from_rings(&union(all), FillRule::NonZero) {
+        Err(RegionsError::Empty) => {
+            return Err(DxfError::Nothing(painter.drawing.report.into_left_out()));
+        }
+        found => found?,
+    };
+    // Duplicate rings are already counted. Add the duplicate curves.
+    let repairs = repairs.get_or_insert_with(Repairs::default);
+    repairs.duplicates += painter.sheet.duplicates;
+    notes.splice(..0, ImportNote::from_repairs(repairs, FillRule::EvenOdd));
+    let unit = painter.drawing.unit;
+    let reported = painter.drawing.report.into_notes();
+    notes.extend(reported.chain(painter.drawing.notes).map(ImportNote::Dxf));
+    Ok(DxfImport {
+        outlines: ImportedOutlines {
+            extent: regions.bounds(),
+            regions,
+            paint_layers: paint_layers(groups),
+            notes,
+        },
+        unit,
+    })
+}
+
+/// Layer, colour and opacity (as bits) of a group.
+type GroupKey = (Rc<str>, [u8; 3], u64);
+
+/// Outlines, areas, lines and letters of one layer and paint. All areas are filled by the non-zero
+/// rule.
+#[derive(Default)]
+struct StyledGroup {
+    outlines: WindingRings,
+    fills: WindingRings,
+    lines: WindingRings,
+    letters: WindingRings,
+}
+
+impl StyledGroup {
+    /// Returns the areas of the group without its outlines; those of lines only if `strokes` is
+    /// true.
+    fn areas(&self, strokes: bool) -> impl Iterator<Item = &WindingRings> {
+        let lines = strokes.then_some(&self.lines);
+        [&self.fills, &self.letters].into_iter().chain(lines)
+    }
+}
+
+/// Flattened drawing that is turned into regions.
+struct SheetPainter {
+    drawing: DxfDrawing,
+    sheet: Sheet,
+    scale: SheetScale,
+}
+
+impl SheetPainter {
+    /// Returns the style of a path.
+    fn style_of(&self, path: usize) -> &ResolvedStyle {
+        &self.drawing.styles[self.sheet.paths[path].style]
+    }
+
+    /// Returns the width of a line in drawing units. The default line weight is at least a hair
+    /// wide, and other line weights are scaled with it; none is thinner than a hair.
+    fn width_of(&self, path: usize) -> f64 {
+        let hair = self.scale.hair;
+        let unit = self.drawing.unit;
+        let units_per_mm = unit.map_or(0.0, |unit| 1.0 / unit.millimetres());
+        (self.style_of(path).weight * units_per_mm.max(hair / DEFAULT_WEIGHT)).max(hair)
+    }
+
+    fn ring_points(&self) -> WindingRings {
+        self.sheet.rings.iter().map(|ring| ring.points.clone()).collect()
+    }
+
+    /// Returns the notes on the curves that do not close.
+    fn line_notes(&self, strokes: bool) -> Vec<ImportNote> {
+        let lines = &self.sheet.lines;
+        if lines.is_empty() {
+            return Vec::new();
+        }
+        let widths = lines.iter().map(|&path| self.width_of(path));
+        let range = widths.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], width| {
+            [low.min(width), high.max(width)]
+        });
+        let drawn = match strokes {
+            true => ImportNote::Dxf(DxfNote::Lines {
+                count: lines.len(),
+                widths: range,
+            }),
+            false => ImportNote::Strokes(lines.len()),
+        };
+        let dashed = lines.iter().map(|&path| self.style_of(path));
+        let dashed: Vec<&ResolvedStyle> = dashed.filter(|style| style.is_dashed()).collect();
+        let types: BTreeSet<String> = dashed.iter().map(|style| decode(&style.line_type)).collect();
+        let solid = (!dashed.is_empty()).then(|| DxfNote::SolidLines {
+            count: dashed.len(),
+            types: types.into_iter().collect(),
+        });
+        [drawn].into_iter().chain(solid.map(ImportNote::Dxf)).collect()
+    }
+
+    /// Turns closed outlines that would hide something into lines; returns their number.
+    fn open_hiding_outlines(&mut self) -> usize {
+        let Ok((regions, _)) =
+            Regions::from_rings_reporting(&self.ring_points(), FillRule::EvenOdd)
+        else {
+            return 0;
+        };
+        let lines = self.sheet.lines.iter().map(|&path| InnerLine {
+            points: &self.sheet.paths[path].points,
+            width: self.width_of(path),
+        });
+        let content = InnerContent {
+            lines: lines.collect(),
+            areas: self.sheet.areas.iter().map(|area| &area.rings).collect(),
+            tolerance: self.scale.tolerance,
+            rounding: self.scale.rounding,
+        };
+        let is_hiding = content.hidden_by(&regions, &self.sheet.rings);
+        let rings = std::mem::take(&mut self.sheet.rings);
+        let mut hiding = 0;
+        for (ring, is_hiding) in rings.into_iter().zip(is_hiding) {
+            if is_hiding {
+                hiding += 1;
+                self.sheet.lines.extend(ring.paths);
+            } else {
+                self.sheet.rings.push(ring);
+            }
+        }
+        hiding
+    }
+
+    /// Returns the outlines, areas, lines and letters of each layer and paint.
+    fn groups(&self) -> Result<BTreeMap<GroupKey, StyledGroup>, TooManyPoints> {
+        /// Shapes of a group that are not united yet.
+        #[derive(Default)]
+        struct Parts {
+            outlines: WindingRings,
+            fills: Vec<WindingRings>,
+            lines: Vec<WindingRings>,
+            letters: Vec<WindingRings>,
+        }
+        let mut parts: BTreeMap<GroupKey, Parts> = BTreeMap::new();
+        let key = |style: usize| {
+            let ResolvedStyle { layer, paint, .. } = &self.drawing.styles[style];
+            (Rc::clone(layer), paint.colour.0, paint.opacity.to_bits())
+        };
+        for OutlineRing { points, style, .. } in &self.sheet.rings {
+            let group = parts.entry(key(*style)).or_default();
+            group.outlines.push(points.clone());
+        }
+        for area in &self.sheet.areas {
+            let group = parts.entry(key(area.style)).or_default();
+            let areas = if area.is_text { &mut group.letters } else { &mut group.fills };
+            areas.push(area.rings.clone());
+        }
+        let mut flattener = Flattener::new(self.scale.tolerance);
+        for &index in &self.sheet.lines {
+            let path = &self.sheet.paths[index];
+            let pen = Pen {
+                width: self.width_of(index),
+                is_round: true,
+                tolerance: self.scale.tolerance,
+            };
+            let stroke = pen.stroke(&path.points, path.is_closed, &mut flattener)?;
+            parts.entry(key(path.style)).or_default().lines.push(stroke);
+        }
+        let united = |parts: Parts| StyledGroup {
+            outlines: Regions::from_rings_reporting(&parts.outlines, FillRule::EvenOdd)
+                .map_or_else(|_| Vec::new(), |(regions, _)| rings_of(&regions)),
+            fills: union(parts.fills),
+            lines: union(parts.lines),
+            letters: union(parts.letters),
+        };
+        Ok(parts.into_iter().map(|(key, parts)| (key, united(parts))).collect())
+    }
+}
+
+/// Returns the paint layers of all groups, lowest first.
+fn paint_layers(groups: BTreeMap<GroupKey, StyledGroup>) -> Vec<PaintLayer> {
+    let regions = |rings: &WindingRings| Regions::from_rings(rings, FillRule::NonZero).ok();
+    let (mut fills, mut lines, mut letters) = (Vec::new(), Vec::new(), Vec::new());
+    for ((layer, rgb, opacity), group) in groups {
+        let paint = Some(Paint {
+            colour: crate::colour::Rgb(rgb),
+            opacity: f64::from_bits(opacity),
+        });
+        let name = layer.to_string();
+        let layer_of = |rings: &WindingRings, is_text: bool| {
+            Some(PaintLayer {
+                regions: regions(rings)?,
+                paint,
+                gradient: None,
+                line: None,
+                name: name.clone(),
+                is_text,
+            })
+        };
+        lines.extend(layer_of(&group.lines, false));
+        letters.extend(layer_of(&group.letters, true));
+        let filled = regions(&union(vec![group.outlines, group.fills]));
+        fills.extend(filled.map(|regions| PaintGroup {
+            regions,
+            paint,
+            name: name.clone(),
+        }));
+    }
+    let mut layers = stack_by_containment(&fills);
+    layers.extend(lines);
+    layers.extend(letters);
+    layers
+}
+
+/// Returns the rings of regions.
+fn rings_of(regions: &Regions) -> Vec<Vec<DVec2>> {
+    regions.rings().map(|ring| ring.points().to_vec()).collect()
+}
