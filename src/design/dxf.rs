@@ -60,9 +60,9 @@ pub(super) const JOIN_TOLERANCE: f64 = 1e-4;
 /// longer side (tolerance: the end points of an arc with bulge 1e-7 are accurate to 3e-10).
 const ROUNDING: f64 = 1e-9;
 
-/// Minimum width of a line, as a fraction of the drawing's longer side (heuristic: two pixels of an
-/// image a thousand pixels wide).
-pub(super) const HAIR: f64 = 0.002;
+/// Minimum width of a line, as a fraction of the drawing's longer side (derived: the default line
+/// weight of 0.25 mm on a sheet of about A4 size).
+pub(super) const HAIR: f64 = 0.001;
 
 /// Maximum deviation of flattened curves, as a fraction of the tolerance that the options allow
 /// (derived: the area of a circle of a tenth of the drawing is then exact to a thousandth at the
