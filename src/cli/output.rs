@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
+use crate::io::escape::escaped_json;
 use crate::io::sanitize::{SanitizedLine, is_hidden};
 
 use super::error::CliError;
@@ -29,29 +30,7 @@ pub(super) fn write_data(text: &str) -> Result<(), CliError> {
 pub(super) fn json(value: &impl Serialize) -> Result<String, CliError> {
     // Converting to a `Value` sorts the keys alphabetically.
     let value = serde_json::to_value(value).map_err(CliError::failed)?;
-    Ok(with_hidden_escaped(&format!("{value:#}\n")))
-}
-
-/// Escapes all hidden characters of JSON text.
-///
-/// JSON requires escapes only for characters below the space, but some terminals also interpret
-/// other characters as commands.
-fn with_hidden_escaped(json: &str) -> String {
-    let mut escaped = String::with_capacity(json.len());
-    for c in json.chars() {
-        // Line breaks within strings are already escaped; the remaining ones separate the lines of
-        // the JSON.
-        if is_hidden(c) && c != '\n' {
-            escaped.extend(
-                c.encode_utf16(&mut [0; 2])
-                    .iter()
-                    .map(|unit| format!("\\u{unit:04x}")),
-            );
-        } else {
-            escaped.push(c);
-        }
-    }
-    escaped
+    Ok(escaped_json(&format!("{value:#}\n")))
 }
 
 /// Writes a sanitised message to stderr. A failure to write it is ignored.

@@ -13,6 +13,7 @@ use super::target::StillKind;
 use super::view::PlaneView;
 use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};
+use crate::io::escape::csv_line;
 use crate::io::file_name::safe_file_name;
 use crate::io::sanitize::SanitizedLine;
 use crate::measure::{BlendMeasures, BlendSampler};
@@ -165,13 +166,7 @@ impl Catalogue {
         let drawing = self.sheet(space, style, ground);
         write_atomically(&sheet, &encode_still(&drawing, StillKind::Png, &sheet)?)?;
         let table = folder.join("catalogue.csv");
-        write_atomically(
-            &table,
-            &self.table(space).map_err(|reason| ExportError::Encode {
-                path: table.clone(),
-                reason,
-            })?,
-        )?;
+        write_atomically(&table, &self.table(space))?;
         written.extend([sheet, table]);
         Ok(written)
     }
@@ -224,8 +219,7 @@ impl Catalogue {
     }
 
     /// Returns the CSV table: one row per blend, with a column of weights for each design.
-    fn table(&self, space: &DesignSpace) -> Result<Vec<u8>, String> {
-        let mut table = csv::Writer::from_writer(Vec::new());
+    fn table(&self, space: &DesignSpace) -> Vec<u8> {
         let place_header = ["file", "name", "stars", "note", "x", "y"].map(str::to_owned);
         let designs = space.designs().iter();
         let weights_header =
@@ -242,8 +236,7 @@ impl Catalogue {
             .into_iter()
             .chain(weights_header)
             .chain(measures_header.map(str::to_owned));
-        let message = |error: csv::Error| error.to_string();
-        table.write_record(header).map_err(message)?;
+        let mut table = csv_line(header);
         for (k, entry) in self.entries.iter().enumerate() {
             let CatalogueEntry {
                 saved, measures, ..
@@ -268,9 +261,9 @@ impl Catalogue {
                 measures.quality.crossings.to_string(),
             ];
             let row = place_cells.into_iter().chain(weights).chain(measure_cells);
-            table.write_record(row).map_err(message)?;
+            table.extend(csv_line(row));
         }
-        table.into_inner().map_err(|error| error.to_string())
+        table
     }
 }
 

@@ -11,6 +11,7 @@ use std::collections::BTreeSet;
 
 use crate::colour::Rgb;
 use crate::geometry::DVec2;
+use crate::io::escape::DxfName;
 
 use super::drawing::{Drawing, DrawingItem};
 use super::outline::{OutlinePath, PathCommand};
@@ -154,7 +155,7 @@ fn shares() -> impl Iterator<Item = f64> {
 
 /// Returns the name of the DXF layer for a colour.
 fn layer(Rgb([r, g, b]): Rgb) -> String {
-    format!("PAINT_{r:02X}{g:02X}{b:02X}")
+    DxfName(&format!("PAINT_{r:02X}{g:02X}{b:02X}")).to_string()
 }
 
 /// Returns the entry of the DXF layer table for a colour.

@@ -4,7 +4,7 @@
 //! most three decimals; the same drawing gives the same bytes. Text is not preserved as text:
 //! labels are outlines with an `aria-label`.
 
-use std::fmt::{self, Write};
+use std::fmt;
 
 use glam::{DVec2, UVec2};
 use image::codecs::png::PngEncoder;
@@ -12,6 +12,7 @@ use image::codecs::png::PngEncoder;
 use crate::colour::{
     Gradient, GradientGeometry, GradientSpread, GradientStop, Paint, Rgb, StrokeJoin, StrokeStyle,
 };
+use crate::io::escape::XmlEscaped;
 
 use super::drawing::{Drawing, DrawingItem};
 use super::labels::ShortNumber;
@@ -222,27 +223,6 @@ struct SvgPoint(DVec2);
 impl fmt::Display for SvgPoint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {}", ShortNumber(self.0.x), ShortNumber(self.0.y))
-    }
-}
-
-/// Displays text escaped for an XML attribute. Characters that XML forbids become the replacement
-/// character.
-pub(super) struct XmlEscaped<'a>(pub &'a str);
-
-impl fmt::Display for XmlEscaped<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for c in self.0.chars() {
-            match c {
-                '&' => f.write_str("&amp;")?,
-                '<' => f.write_str("&lt;")?,
-                '>' => f.write_str("&gt;")?,
-                '"' => f.write_str("&quot;")?,
-                '\t' | '\n' | '\r' => f.write_char(' ')?,
-                '\0'..'\u{20}' | '\u{fffe}' | '\u{ffff}' => f.write_char('\u{fffd}')?,
-                c => f.write_char(c)?,
-            }
-        }
-        Ok(())
     }
 }
 

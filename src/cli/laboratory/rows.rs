@@ -10,6 +10,8 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use crate::io::escape::csv_line;
+
 use super::columns;
 use super::report::PairReport;
 use super::table::{PairTable, PairTableRow};
@@ -20,7 +22,7 @@ pub(super) fn header(table: &PairTable) -> Vec<u8> {
     let result = [columns::DIRECTION, columns::STATUS].map(str::to_owned);
     let measures = columns::ALL.iter().map(columns::ReportColumn::heading);
     let headings = table.header.iter().cloned().chain(result).chain(measures);
-    line(headings.map(String::into_bytes))
+    csv_line(headings)
 }
 
 /// Returns the row of a pair as a line of CSV: the cells of the input table, the direction, the
@@ -38,15 +40,7 @@ pub(super) fn row(
     });
     let result = [direction, status].map(str::to_owned).into_iter();
     let report_cells = result.chain(measures).map(String::into_bytes);
-    line(row.cells.iter().cloned().chain(report_cells))
-}
-
-/// Returns cells as a line of CSV.
-fn line(cells: impl Iterator<Item = Vec<u8>>) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    // Writing to memory does not fail.
-    writer.write_record(cells).unwrap_or_default();
-    writer.into_inner().unwrap_or_default()
+    csv_line(row.cells.iter().cloned().chain(report_cells))
 }
 
 /// File with the finished rows of a report, until all pairs are measured.

@@ -16,8 +16,8 @@ use serde_json::{Value, json};
 
 use crate::colour::{GradientSpread, StrokeJoin};
 use crate::geometry::DVec2;
+use crate::io::escape::{XmlEscaped, json_text};
 
-use super::super::svg::XmlEscaped;
 use super::animation::VectorAnimation;
 use super::chebyshev::truncate_series;
 use super::piece::MovingShape;
@@ -74,9 +74,7 @@ pub(super) fn html_page(animation: &VectorAnimation, title: &str) -> String {
 /// binary form. Both are compressed with deflate (RFC 1951) and encoded in base64.
 fn pack(animation: &VectorAnimation, title: &str, still_px: f64) -> String {
     let mut series = Vec::new();
-    let mut bytes = film(animation, title, still_px, &mut series)
-        .to_string()
-        .into_bytes();
+    let mut bytes = json_text(&film(animation, title, still_px, &mut series)).into_bytes();
     bytes.push(b'\n');
     bytes.append(&mut series);
     let mut packed = Vec::new();

@@ -7,9 +7,9 @@
 
 use crate::colour::{Gradient, GradientSpread, Rgb, StrokeJoin};
 use crate::geometry::DVec2;
+use crate::io::escape::XmlEscaped;
 
 use super::super::labels::ShortNumber;
-use super::super::svg::XmlEscaped;
 use super::animation::VectorAnimation;
 use super::shape::{PathVerb, PosedShape, ShapeForm};
 use super::tracks::{KeyedProperty, SceneLayer, layers};
