@@ -1,7 +1,8 @@
-//! File input and output: atomic writes, bounded reads, portable file names, and escaping of text
-//! from files so that it is safe to display.
+//! File input and output: atomic writes, bounded reads, portable file names, escaping of text from
+//! files so that it is safe to display, and of text for the formats that are written.
 
 pub(crate) mod atomic_file;
+pub(crate) mod escape;
 #[cfg(feature = "cli")]
 pub(crate) mod file_name;
 pub(crate) mod read;

@@ -3,6 +3,7 @@
 
 use crate::colour::{Gradient, Paint, StrokeStyle};
 use crate::geometry::{DVec2, Side, fit_affine};
+use std::sync::Arc;
 
 /// Paint layers of a content, and the layer to which each ring belongs.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +39,8 @@ pub struct InkedLayer {
     pub gradients: [Option<Gradient>; 2],
     /// Strokes along the rings in source and target; `None` without a stroke.
     pub strokes: [Option<StrokeStyle>; 2],
+    /// Names of the layer in the files of source and target; empty where it has none.
+    pub names: [Arc<str>; 2],
 }
 
 /// Paint layer: parts that have the same paint in the source and the same paint in the target.
@@ -49,6 +52,8 @@ pub struct PlacedPaintLayer {
     pub shading: LayerShading,
     /// Strokes along the outlines in source and target; `None` without a stroke.
     pub strokes: [Option<StrokeStyle>; 2],
+    /// Names of the layer in the files of source and target; empty where it has none.
+    pub names: [Arc<str>; 2],
     /// Number of layers below this one in the source and in the target.
     pub z_indices: [usize; 2],
     /// The only design that has the layer; `None` if both have it.
@@ -116,6 +121,7 @@ impl PlacedPaintLayer {
         let mut inked = InkedLayer {
             paints: self.paints,
             strokes: self.strokes,
+            names: self.names.clone(),
             gradients,
             ..inked
         };
@@ -144,6 +150,7 @@ impl PaintLayerStack {
                 paints: [None; 2],
                 shading: LayerShading::default(),
                 strokes: [None; 2],
+                names: Default::default(),
                 z_indices: [0; 2],
                 only_in: None,
             }],

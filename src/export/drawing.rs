@@ -17,6 +17,7 @@ use image::RgbaImage;
 
 use crate::colour::{Gradient, Paint, Rgb, StrokeStyle};
 use crate::content::{Content, InkedBars, PictureRaster};
+use crate::design::LengthUnit;
 use crate::geometry::{Bounds, DVec2};
 use crate::space::SpaceFrame;
 use crate::transition::{FigureLayer, Frame, TransitionStyle, VectorFigure};
@@ -105,6 +106,8 @@ pub struct Drawing {
     pub items: Vec<DrawingItem>,
     /// Mapping from the plane to pixels if the drawing shows one frame, `None` for sheets.
     pub view: Option<PlaneView>,
+    /// Unit of length of the plane, if the designs declare one.
+    pub unit: Option<LengthUnit>,
 }
 
 impl Drawing {
@@ -115,6 +118,7 @@ impl Drawing {
             ground,
             items: Vec::new(),
             view: None,
+            unit: None,
         }
     }
 
@@ -128,6 +132,7 @@ impl Drawing {
         let mut drawing = Self::new(view.size(), ground);
         drawing.push_frame(frame, style, view);
         drawing.view = Some(*view);
+        drawing.unit = unit_at(frame);
         drawing
     }
 
@@ -194,7 +199,7 @@ impl Drawing {
     ) {
         let colour = style.fill_at(t);
         match figure.layers.as_slice() {
-            [] => self.push_rings(&figure.rings, colour.into(), None, view),
+            [] => self.push_rings(outline_of(&figure.rings, view), colour.into(), None, view),
             coats => self.push_layers(coats, figure, style, view),
         }
         let width_px = figure.bar_width * view.px_per_unit();
@@ -257,34 +262,42 @@ impl Drawing {
             let gradient = style.gradient_at(gradients, layer.paints, layer.t);
             let paint = style.paint_at(layer.paints, layer.t);
             let line = StrokeStyle::interpolated(layer.lines, layer.t);
-            (layer.rings.clone(), (paint, gradient), line)
+            (layer, (paint, gradient), line)
         });
+        let add = |outline: &mut OutlinePath, layer: &FigureLayer| {
+            let rings = figure.rings[layer.rings.clone()].iter();
+            let rings = rings.map(|ring| ring.iter().map(|&p| view.to_px(p)));
+            outline.push_named_rings(rings, layer.name());
+        };
         let mut next = layers.next();
-        while let Some((mut rings, ink, line)) = next {
+        while let Some((layer, ink, line)) = next {
             next = layers.next();
+            let mut outline = OutlinePath::default();
+            add(&mut outline, layer);
             let is_plain = ink.0.is_opaque() && line.is_none();
             while let Some((more, ..)) =
                 next.take_if(|(_, other, line)| is_plain && line.is_none() && *other == ink)
             {
-                rings.end = more.end;
+                add(&mut outline, more);
                 next = layers.next();
             }
             let (paint, gradient) = ink;
-            self.push_rings(&figure.rings[rings.clone()], paint, gradient, view);
             if let Some(line) = line {
-                self.push_line(&figure.rings[rings], line, view);
+                self.push_rings(outline.clone(), paint, gradient, view);
+                self.push_line(outline, line, view);
+            } else {
+                self.push_rings(outline, paint, gradient, view);
             }
         }
     }
 
     fn push_rings(
         &mut self,
-        rings: &[Vec<DVec2>],
+        outline: OutlinePath,
         paint: Paint,
         gradient: Option<Gradient>,
         view: &PlaneView,
     ) {
-        let outline = outline_of(rings, view);
         if !outline.commands.is_empty() && paint.opacity > 0.0 {
             self.items.push(DrawingItem::Fill {
                 outline,
@@ -295,8 +308,7 @@ impl Drawing {
         }
     }
 
-    fn push_line(&mut self, rings: &[Vec<DVec2>], line: StrokeStyle, view: &PlaneView) {
-        let outline = outline_of(rings, view);
+    fn push_line(&mut self, outline: OutlinePath, line: StrokeStyle, view: &PlaneView) {
         let line = StrokeStyle {
             width: line.width * view.px_per_unit(),
             ..line
@@ -333,6 +345,21 @@ impl Drawing {
             });
         }
         self.items.extend(cores);
+    }
+}
+
+/// Returns the unit of length of a frame: that of the source before t = ½, that of the target from
+/// there on. A design without a unit has that of the other one.
+fn unit_at(frame: &Frame) -> Option<LengthUnit> {
+    let [source, target] = frame
+        .transition()
+        .designs()
+        .each_ref()
+        .map(|design| design.unit);
+    if frame.t() < 0.5 {
+        source.or(target)
+    } else {
+        target.or(source)
     }
 }
 
@@ -435,6 +462,7 @@ mod tests {
             paints: [Some(paint), None],
             gradients: [None, None],
             lines: [None; 2],
+            names: Default::default(),
             t: 0.0,
         });
         VectorFigure {

@@ -2,6 +2,7 @@
 //! or stroked.
 
 use crate::geometry::DVec2;
+use std::sync::Arc;
 
 /// Maximum absolute value of a coordinate that is drawn, in pixels (derived: beyond it, the 32-bit
 /// coordinates of rasterisers have no sub-pixel precision). At t far outside [0, 1], points can lie
@@ -28,9 +29,35 @@ pub enum PathCommand {
 pub struct OutlinePath {
     /// Contours, each running from a [`PathCommand::Move`] to a [`PathCommand::Close`].
     pub commands: Vec<PathCommand>,
+    /// Names of the paint layers from which the contours come, in the order of the contours.
+    pub names: Vec<NamedContours>,
+}
+
+/// Run of consecutive contours of an outline that come from one paint layer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedContours {
+    /// Number of contours.
+    pub count: usize,
+    /// Name of the paint layer; empty if it has none.
+    pub name: Arc<str>,
 }
 
 impl OutlinePath {
+    /// Adds closed polygons that come from a paint layer with the given name.
+    pub(super) fn push_named_rings(
+        &mut self,
+        rings_px: impl Iterator<Item = impl ExactSizeIterator<Item = DVec2> + Clone>,
+        name: &Arc<str>,
+    ) {
+        let first = self.commands.len();
+        rings_px.for_each(|ring| self.push_ring(ring));
+        let is_start = |command: &&PathCommand| matches!(command, PathCommand::Move(_));
+        self.names.push(NamedContours {
+            count: self.commands[first..].iter().filter(is_start).count(),
+            name: Arc::clone(name),
+        });
+    }
+
     /// Adds a closed polygon. Polygons with fewer than three points or an undrawable point are
     /// omitted.
     pub fn push_ring(&mut self, ring_px: impl ExactSizeIterator<Item = DVec2> + Clone) {

@@ -86,6 +86,7 @@ fn disc(centre: DVec2, radius: f64) -> OutlinePath {
     let steps = std::iter::once(start).chain((0..4).map(quarter));
     OutlinePath {
         commands: steps.chain([PathCommand::Close]).collect(),
+        ..OutlinePath::default()
     }
 }
 
@@ -264,7 +265,7 @@ mod tests {
             size,
             ground,
             items,
-            view: None,
+            ..Drawing::new(size, None)
         })
     }
 

@@ -6,6 +6,7 @@ use crate::colour::{Gradient, Paint, StrokeStyle};
 use crate::correspondence::{PartAppearance, PartAppearances};
 use crate::design::{Design, PaintLayer};
 use crate::geometry::Regions;
+use std::sync::Arc;
 
 /// Two designs prepared for matching.
 pub(super) struct DrawingPair {
@@ -25,6 +26,8 @@ pub(super) struct LayerInk {
     pub paint: Option<Paint>,
     pub gradient: Option<Gradient>,
     pub line: Option<StrokeStyle>,
+    /// Name of the layer in its file; empty if it has none.
+    pub name: Arc<str>,
 }
 
 impl DrawingPair {
@@ -37,6 +40,7 @@ impl DrawingPair {
             paint: layer.paint,
             gradient: layer.gradient.clone(),
             line: layer.line,
+            name: layer.name.as_str().into(),
         };
         Some(Self {
             outlines,

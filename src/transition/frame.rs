@@ -53,6 +53,9 @@ pub struct FigureLayer {
     pub gradients: [Option<Gradient>; 2],
     /// Stroke along the rings in source and target; see [`StrokeStyle::interpolated`].
     pub lines: [Option<StrokeStyle>; 2],
+    /// Names of the layer in the files of source and target; empty where it has none. See
+    /// [`FigureLayer::name`].
+    pub names: [Arc<str>; 2],
     /// The t at which paints, gradients and strokes are mixed: that of the frame, unless the part
     /// has its own timing.
     pub t: f64,
@@ -156,6 +159,7 @@ impl Frame {
                     paints: inked.paints,
                     gradients: inked.gradients,
                     lines: inked.strokes,
+                    names: inked.names,
                     t: inked.t,
                 });
             }
@@ -170,6 +174,21 @@ impl Frame {
             Content::Colours(pair) => Some(pair.render(self.placement(), self.t(), raster)),
             Content::Solid(_) | Content::Field(_) => None,
         }
+    }
+}
+
+impl FigureLayer {
+    /// Returns the name of the layer: that of the source before t = ½, that of the target from
+    /// there on. A side without a name has that of the other side.
+    #[must_use]
+    pub fn name(&self) -> &Arc<str> {
+        let [source, target] = &self.names;
+        let (own, other) = if self.t < 0.5 {
+            (source, target)
+        } else {
+            (target, source)
+        };
+        if own.is_empty() { other } else { own }
     }
 }
 
@@ -194,6 +213,7 @@ impl VectorFigure {
                 paints: [coat.paint; 2],
                 gradients: [coat.gradient.clone(), coat.gradient.clone()],
                 lines: [coat.line; 2],
+                names: [coat.name.as_str().into(), Arc::default()],
                 t,
             });
         }

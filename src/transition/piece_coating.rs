@@ -10,6 +10,7 @@ use crate::compatible::CompatibleMesh;
 use crate::content::{AnchoredGradient, LayerShading, PaintLayerStack, PlacedPaintLayer};
 use crate::correspondence::{PartAppearances, PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side};
+use std::sync::Arc;
 
 impl TransitionData {
     /// Applies options to the paint layers of the content; without paint layers, changes nothing.
@@ -111,6 +112,7 @@ pub(super) fn placed_paint_layers(
             paints: Side::BOTH.map(paint),
             shading: shading(inks, vertices_along(layer), places),
             strokes: inks.map(|ink| ink?.line),
+            names: inks.map(|ink| ink.map(|ink| Arc::clone(&ink.name)).unwrap_or_default()),
             z_indices: [z_indices[0][layer], z_indices[1][layer]],
             only_in: match layers.layers[layer] {
                 [Some(_), None] => Some(Side::Source),

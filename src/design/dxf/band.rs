@@ -26,7 +26,12 @@ pub(super) struct WideBand {
 impl WideBand {
     /// Returns points of the drawing whose bounding box contains the band.
     pub fn hull(&self) -> Vec<DVec2> {
-        let reach = 0.5 * self.widths.iter().flatten().fold(0.0, |a: f64, &b| a.max(b));
+        let reach = 0.5
+            * self
+                .widths
+                .iter()
+                .flatten()
+                .fold(0.0, |a: f64, &b| a.max(b));
         let hull = self.curves.iter().flat_map(DxfCurve::hull);
         let corners = Bounds::of(hull).map(|bounds| bounds.padded(reach).corners());
         let place = |p: DVec2| self.place.transform_point2(p);
@@ -40,7 +45,12 @@ impl WideBand {
         tolerance: f64,
         flattener: &mut Flattener,
     ) -> Result<WindingRings, TooManyPoints> {
-        let scale = self.place.matrix2.x_axis.length().max(self.place.matrix2.y_axis.length());
+        let scale = self
+            .place
+            .matrix2
+            .x_axis
+            .length()
+            .max(self.place.matrix2.y_axis.length());
         let own_tolerance = tolerance / scale.max(f64::MIN_POSITIVE);
         let first = self.widths[0][0];
         let is_constant = self.widths.iter().flatten().all(|&width| width == first);
@@ -129,13 +139,23 @@ impl Pen {
         }
         let stroke = Stroke {
             width: (self.width * scale) as f32,
-            line_cap: if self.is_round { LineCap::Round } else { LineCap::Butt },
-            line_join: if self.is_round { LineJoin::Round } else { LineJoin::Miter },
+            line_cap: if self.is_round {
+                LineCap::Round
+            } else {
+                LineCap::Butt
+            },
+            line_join: if self.is_round {
+                LineJoin::Round
+            } else {
+                LineJoin::Miter
+            },
             ..Stroke::default()
         };
         // The stroker's error is a quarter of a unit divided by the resolution.
         let resolution = (0.25 / (self.tolerance * scale)).clamp(1.0, MAX_RESOLUTION) as f32;
-        let outline = path.finish().and_then(|path| path.stroke(&stroke, resolution));
+        let outline = path
+            .finish()
+            .and_then(|path| path.stroke(&stroke, resolution));
         let place = |p: Point| centre + DVec2::new(p.x.into(), p.y.into()) / scale;
         outline.map_or(Ok(Vec::new()), |outline| flattener.rings(&outline, place))
     }

@@ -173,7 +173,8 @@ impl DxfReader {
         let is_on_paper = record.integer(67).is_ok_and(|flag| flag != 0);
         if is_on_paper && self.open.is_none() {
             let what = "left out: it lies in paper space, not in the model";
-            self.report.add(&record.remark(what), &decode(record.text(8)));
+            self.report
+                .add(&record.remark(what), &decode(record.text(8)));
             return Ok(());
         }
         let entity = match self.converted(record, vertices) {

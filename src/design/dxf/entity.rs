@@ -171,7 +171,9 @@ impl DxfRecord<'_> {
     pub fn polyline(&self, vertices: &[DxfRecord]) -> Result<ShapeOrReason, EntityFault> {
         let flags = self.integer(70)?;
         if flags & (16 | 64) != 0 {
-            return Ok(Err("left out: meshes in space have no plane outline; explode it"));
+            return Ok(Err(
+                "left out: meshes in space have no plane outline; explode it",
+            ));
         }
         let is_in_space = flags & 8 != 0;
         let widths = [self.real(40, 0.0)?, self.real(41, 0.0)?];
@@ -336,7 +338,9 @@ impl DxfRecord<'_> {
     /// Converts an ACAD_TABLE: a reference to the block that contains its lines and text.
     fn table(&self) -> Result<EntityShape, EntityFault> {
         let at = self.point(10)?;
-        let along = self.optional_point(11)?.map(|direction| direction.truncate());
+        let along = self
+            .optional_point(11)?
+            .map(|direction| direction.truncate());
         let along = along.and_then(DVec2::try_normalize).unwrap_or(DVec2::X);
         let turned = DMat2::from_cols(along, along.perp());
         let place = DAffine2::from_mat2_translation(turned, at.truncate());
@@ -441,7 +445,10 @@ fn polyline(
     }
     Ok(EntityShape::Band(WideBand {
         curves: curves.collect(),
-        widths: corners.iter().map(|corner| corner.widths.map(f64::abs)).collect(),
+        widths: corners
+            .iter()
+            .map(|corner| corner.widths.map(f64::abs))
+            .collect(),
         is_closed,
         place: *plan,
     }))

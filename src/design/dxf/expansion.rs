@@ -57,7 +57,12 @@ impl DxfDrawing {
     pub fn hull(&self) -> impl Iterator<Item = DVec2> {
         let paths = self.paths.iter().flat_map(|path| &path.curves);
         let areas = self.areas.iter().flat_map(|area| match &area.shape {
-            AreaShape::Loops(area) => area.loops.iter().flatten().flat_map(DxfCurve::hull).collect(),
+            AreaShape::Loops(area) => area
+                .loops
+                .iter()
+                .flatten()
+                .flat_map(DxfCurve::hull)
+                .collect(),
             AreaShape::Band(band) => band.hull(),
         });
         paths.flat_map(DxfCurve::hull).chain(areas)
@@ -210,7 +215,9 @@ impl<'b> BlockExpansion<'b> {
                 "left out: its block contains itself"
             }
             Some(_) if self.open.len() >= MAX_DEPTH => "left out: its blocks are nested too deeply",
-            Some((key, block)) => return self.insert_copies(reference, (key, block), context, style),
+            Some((key, block)) => {
+                return self.insert_copies(reference, (key, block), context, style);
+            }
         };
         let remark = EntityRemark {
             kind: "INSERT".into(),
@@ -229,7 +236,11 @@ impl<'b> BlockExpansion<'b> {
         context: BlockContext,
         style: &ResolvedStyle,
     ) -> Result<(), DxfError> {
-        let base = if reference.uses_base_point { block.base } else { DVec2::ZERO };
+        let base = if reference.uses_base_point {
+            block.base
+        } else {
+            DVec2::ZERO
+        };
         self.open.push(key);
         for place in &reference.places {
             self.count(1)?;

@@ -26,7 +26,9 @@ pub(super) fn loops(record: &DxfRecord) -> Result<AreaLoops, EntityFault> {
     let first = position(91).ok_or("it has no boundary")?;
     let boundary = &record.pairs[first + 1..];
     // The hatch style, or the pattern of an MPOLYGON, follows the last loop.
-    let end = boundary.iter().position(|pair| matches!(pair.code, 75 | 76));
+    let end = boundary
+        .iter()
+        .position(|pair| matches!(pair.code, 75 | 76));
     let boundary = &boundary[..end.unwrap_or(boundary.len())];
     let elevation = record.pairs[..first].iter().find(|pair| pair.code == 30);
     let elevation = elevation.map_or(Ok(0.0), |pair| pair.real())?;
@@ -77,7 +79,10 @@ fn split_at<'p, 'a>(
     pairs: &'p [GroupPair<'a>],
     code: i32,
 ) -> impl Iterator<Item = &'p [GroupPair<'a>]> {
-    let starts = pairs.iter().enumerate().filter(move |(_, pair)| pair.code == code);
+    let starts = pairs
+        .iter()
+        .enumerate()
+        .filter(move |(_, pair)| pair.code == code);
     let mut starts = starts.map(|(i, _)| i).peekable();
     std::iter::from_fn(move || {
         let start = starts.next()?;
@@ -114,7 +119,10 @@ impl EdgePairs<'_, '_> {
     }
 
     fn point(&self, code: i32) -> Result<DVec2, EntityFault> {
-        Ok(DVec2::new(self.real(code, 0.0)?, self.real(code + 10, 0.0)?))
+        Ok(DVec2::new(
+            self.real(code, 0.0)?,
+            self.real(code + 10, 0.0)?,
+        ))
     }
 
     /// Returns the curve of an edge of the type `kind`: line, circular arc, elliptical arc or
@@ -141,9 +149,17 @@ impl EdgePairs<'_, '_> {
         let angles = [self.real(50, 0.0)?, self.real(51, 360.0)?].map(f64::to_radians);
         let [from, to] = angles.map(|angle| ellipse_parameter(angle, ratio));
         let is_full = (angles[1] - angles[0]).abs() >= TAU - 1e-9;
-        let sweep = if is_full { TAU } else { positive_angle(from, to) };
+        let sweep = if is_full {
+            TAU
+        } else {
+            positive_angle(from, to)
+        };
         // The angles of a clockwise arc are measured clockwise too.
-        let sign = if self.real(73, 1.0)? == 0.0 { -1.0 } else { 1.0 };
+        let sign = if self.real(73, 1.0)? == 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
         Ok(DxfCurve::Arc(EllipseArc {
             centre: self.point(10)?,
             u: major,
@@ -161,7 +177,11 @@ impl EdgePairs<'_, '_> {
                 is_given.then(|| self.point(code)).transpose()
             };
             let is_closed = self.real(74, 0.0)? != 0.0;
-            spline::through_fit_points(&points(self.0, 11)?, [tangent(12)?, tangent(13)?], is_closed)
+            spline::through_fit_points(
+                &points(self.0, 11)?,
+                [tangent(12)?, tangent(13)?],
+                is_closed,
+            )
         } else {
             let degree = self.real(94, 3.0)? as usize;
             spline::with_control_points(degree, self.reals(40)?, &control, &self.reals(42)?)
@@ -206,7 +226,9 @@ pub(super) fn replaced_fill(record: &DxfRecord) -> Result<Option<ReplacedFill>, 
 }
 
 fn mean_colour(colours: &[i64]) -> Option<Rgb> {
-    let count = i64::try_from(colours.len()).ok().filter(|&count| count > 0)?;
+    let count = i64::try_from(colours.len())
+        .ok()
+        .filter(|&count| count > 0)?;
     let channel = |shift: u32| {
         let sum: i64 = colours.iter().map(|bits| (bits >> shift) & 0xff).sum();
         u8::try_from((sum + count / 2) / count).unwrap_or(u8::MAX)

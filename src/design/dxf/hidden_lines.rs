@@ -40,15 +40,19 @@ impl InnerContent<'_> {
     /// Returns for each of `rings` whether it bounds one of the `regions` that would hide
     /// something.
     pub fn hidden_by(&self, regions: &Regions, rings: &[OutlineRing]) -> Vec<bool> {
-        let pieces: Vec<(&Region, Bounds)> =
-            regions.iter().map(|piece| (piece, piece.outer.bounds())).collect();
+        let pieces: Vec<(&Region, Bounds)> = regions
+            .iter()
+            .map(|piece| (piece, piece.outer.bounds()))
+            .collect();
         let mut hides = vec![false; pieces.len()];
         self.find_lines(regions, &pieces, &mut hides);
         self.find_areas(&pieces, &mut hides);
         let mut is_hiding = vec![false; rings.len()];
         for ((piece, bounds), _) in pieces.iter().zip(&hides).filter(|(_, hides)| **hides) {
-            let boundary: Vec<EdgeBvh> =
-                piece.rings().map(|ring| EdgeBvh::of(ring.points())).collect();
+            let boundary: Vec<EdgeBvh> = piece
+                .rings()
+                .map(|ring| EdgeBvh::of(ring.points()))
+                .collect();
             for (ring, is_hiding) in rings.iter().zip(&mut is_hiding) {
                 *is_hiding = *is_hiding || self.bounds_piece(ring, &boundary, bounds);
             }
@@ -68,7 +72,10 @@ impl InnerContent<'_> {
             let place = place.padded(self.rounding);
             let limit = self.rounding * self.rounding;
             let is_near = |[a, b]: [DVec2; 2]| distance_squared_to_segment(middle, a, b) <= limit;
-            reach.contains(middle) && boundary.iter().any(|edges| edges.any_edge_near(&place, &is_near))
+            reach.contains(middle)
+                && boundary
+                    .iter()
+                    .any(|edges| edges.any_edge_near(&place, &is_near))
         })
     }
 
@@ -123,7 +130,8 @@ impl InnerContent<'_> {
             if near.is_empty() {
                 continue;
             }
-            let covered = |rings: WindingRings| area_of(&boolean(&rings, &near, OverlayRule::Intersect));
+            let covered =
+                |rings: WindingRings| area_of(&boolean(&rings, &near, OverlayRule::Intersect));
             let whole: WindingRings = piece.rings().map(|ring| ring.points().to_vec()).collect();
             // Curves of the area and of the outline may be flattened differently.
             let slack = |perimeter: f64| 2.0 * self.tolerance * perimeter;
@@ -156,5 +164,9 @@ fn middle_of(points: &[DVec2]) -> DVec2 {
 
 /// Returns the area of disjoint polygons with holes that run the other way.
 fn area_of(rings: &WindingRings) -> f64 {
-    rings.iter().map(|ring| crate::geometry::signed_area(ring)).sum::<f64>().abs()
+    rings
+        .iter()
+        .map(|ring| crate::geometry::signed_area(ring))
+        .sum::<f64>()
+        .abs()
 }

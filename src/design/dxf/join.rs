@@ -41,7 +41,9 @@ pub(super) fn join_curves(curves: Vec<Vec<DVec2>>, within: f64) -> JoinedCurves 
         *curve = indices[*curve];
     }
     let loose = indices.into_iter().zip(is_loose);
-    result.loose = loose.filter_map(|(index, is)| is.then_some(index)).collect();
+    result.loose = loose
+        .filter_map(|(index, is)| is.then_some(index))
+        .collect();
     result
 }
 

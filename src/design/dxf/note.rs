@@ -148,10 +148,7 @@ impl EntityReport {
             layer: layer.to_owned(),
             handle: remark.handle.clone(),
         };
-        self.entities
-            .entry(key.clone())
-            .or_insert_with(first)
-            .count += 1;
+        self.entities.entry(key.clone()).or_insert_with(first).count += 1;
     }
 
     /// Adds the name of a font that was replaced by the bundled font.

@@ -51,7 +51,11 @@ pub(super) fn paint(
     };
     let (outlines, mut repairs) = outlines.unzip();
     let shown = groups.values().flat_map(|group| group.areas(strokes));
-    let all = outlines.iter().map(rings_of).chain(shown.cloned()).collect();
+    let all = outlines
+        .iter()
+        .map(rings_of)
+        .chain(shown.cloned())
+        .collect();
     let regions = match Regions::from_rings(&union(all), FillRule::NonZero) {
         Err(RegionsError::Empty) => {
             return Err(DxfError::Nothing(painter.drawing.report.into_left_out()));
@@ -121,7 +125,11 @@ impl SheetPainter {
     }
 
     fn ring_points(&self) -> WindingRings {
-        self.sheet.rings.iter().map(|ring| ring.points.clone()).collect()
+        self.sheet
+            .rings
+            .iter()
+            .map(|ring| ring.points.clone())
+            .collect()
     }
 
     /// Returns the notes on the curves that do not close.
@@ -143,12 +151,18 @@ impl SheetPainter {
         };
         let dashed = lines.iter().map(|&path| self.style_of(path));
         let dashed: Vec<&ResolvedStyle> = dashed.filter(|style| style.is_dashed()).collect();
-        let types: BTreeSet<String> = dashed.iter().map(|style| decode(&style.line_type)).collect();
+        let types: BTreeSet<String> = dashed
+            .iter()
+            .map(|style| decode(&style.line_type))
+            .collect();
         let solid = (!dashed.is_empty()).then(|| DxfNote::SolidLines {
             count: dashed.len(),
             types: types.into_iter().collect(),
         });
-        [drawn].into_iter().chain(solid.map(ImportNote::Dxf)).collect()
+        [drawn]
+            .into_iter()
+            .chain(solid.map(ImportNote::Dxf))
+            .collect()
     }
 
     /// Turns closed outlines that would hide something into lines; returns their number.
@@ -203,7 +217,11 @@ impl SheetPainter {
         }
         for area in &self.sheet.areas {
             let group = parts.entry(key(area.style)).or_default();
-            let areas = if area.is_text { &mut group.letters } else { &mut group.fills };
+            let areas = if area.is_text {
+                &mut group.letters
+            } else {
+                &mut group.fills
+            };
             areas.push(area.rings.clone());
         }
         let mut flattener = Flattener::new(self.scale.tolerance);
@@ -224,7 +242,10 @@ impl SheetPainter {
             lines: union(parts.lines),
             letters: union(parts.letters),
         };
-        Ok(parts.into_iter().map(|(key, parts)| (key, united(parts))).collect())
+        Ok(parts
+            .into_iter()
+            .map(|(key, parts)| (key, united(parts)))
+            .collect())
     }
 }
 

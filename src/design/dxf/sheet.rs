@@ -172,7 +172,10 @@ fn flatten_areas(areas: &[DxfArea], scale: SheetScale) -> Result<Vec<FlatArea>, 
                 (rings, crate::geometry::FillRule::NonZero)
             }
             AreaShape::Loops(area) => {
-                let rings = area.loops.iter().flat_map(|curves| loop_rings(curves, scale));
+                let rings = area
+                    .loops
+                    .iter()
+                    .flat_map(|curves| loop_rings(curves, scale));
                 (rings.collect(), area.rule)
             }
         };

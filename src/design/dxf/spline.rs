@@ -117,7 +117,11 @@ impl SlopeSystem {
     /// Prescribes the value of an end, the first or last unknown.
     fn fix(&mut self, end: usize, value: DVec2) {
         let last = self.diagonal.len() - 1;
-        let (neighbour, coupling) = if end == 0 { (1, 0) } else { (last - 1, last - 1) };
+        let (neighbour, coupling) = if end == 0 {
+            (1, 0)
+        } else {
+            (last - 1, last - 1)
+        };
         self.right[neighbour] -= self.coupling[coupling] * value;
         self.coupling[coupling] = 0.0;
         self.diagonal[end] = 1.0;

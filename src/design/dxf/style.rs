@@ -190,18 +190,12 @@ impl LayerTable {
             is_off: false,
             is_frozen: false,
         };
-        self.layers
-            .entry(name_key(name))
-            .or_insert_with(undefined)
+        self.layers.entry(name_key(name)).or_insert_with(undefined)
     }
 
     /// Resolves the style of an entity. `outer` is the style of the enclosing block reference, or
     /// `None` for an entity outside of blocks.
-    pub fn resolve(
-        &mut self,
-        style: &EntityStyle,
-        outer: Option<&ResolvedStyle>,
-    ) -> ResolvedStyle {
+    pub fn resolve(&mut self, style: &EntityStyle, outer: Option<&ResolvedStyle>) -> ResolvedStyle {
         let inherits_layer = *style.layer == *OF_BLOCK;
         let own = self.get(&style.layer).clone();
         let layer = match outer {

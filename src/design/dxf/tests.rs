@@ -220,18 +220,54 @@ fn open_lines_are_strokes_and_unsupported_entities_are_reported() {
 #[test]
 fn broken_entities_are_left_out_and_the_rest_remains() {
     for (entity, message) in [
-        ("0 LINE 8 0 10 x 20 0", "1 LINE left out: a value is not a number from -1e18 to 1e18 (line 58, layer 0)"),
-        ("0 LINE 8 0 10 nan 20 0", "1 LINE left out: a value is not a number"),
-        ("0 LINE 8 0 10 1e300 20 0", "1 LINE left out: a value is not a number"),
-        ("0 SPLINE 8 0 71 3 10 0 20 0", "1 SPLINE left out: it has no knots (line 54, layer 0)"),
-        ("0 SPLINE 8 0 71 3 40 0 10 0 20 0", "1 SPLINE left out: its degree, knots"),
-        ("0 SPLINE 8 0 71 3", "1 SPLINE left out: it has neither control points"),
-        ("0 CIRCLE 8 0 40 0", "1 CIRCLE left out: its radius is not positive"),
-        ("0 HATCH 8 0 2 SOLID 70 1", "1 HATCH left out: it has no boundary"),
-        ("0 LWPOLYLINE 8 0 10 3 20 3", "1 LWPOLYLINE left out: it has fewer than two vertices"),
-        ("0 TEXT 8 0 1 words 40 0", "1 TEXT left out: its text height is not positive"),
-        ("0 INSERT 8 0 2 gone", "1 INSERT left out: its block is not defined"),
-        ("0 INSERT 8 0 2 A 70 30000 71 30000", "1 INSERT left out: it makes too many copies"),
+        (
+            "0 LINE 8 0 10 x 20 0",
+            "1 LINE left out: a value is not a number from -1e18 to 1e18 (line 58, layer 0)",
+        ),
+        (
+            "0 LINE 8 0 10 nan 20 0",
+            "1 LINE left out: a value is not a number",
+        ),
+        (
+            "0 LINE 8 0 10 1e300 20 0",
+            "1 LINE left out: a value is not a number",
+        ),
+        (
+            "0 SPLINE 8 0 71 3 10 0 20 0",
+            "1 SPLINE left out: it has no knots (line 54, layer 0)",
+        ),
+        (
+            "0 SPLINE 8 0 71 3 40 0 10 0 20 0",
+            "1 SPLINE left out: its degree, knots",
+        ),
+        (
+            "0 SPLINE 8 0 71 3",
+            "1 SPLINE left out: it has neither control points",
+        ),
+        (
+            "0 CIRCLE 8 0 40 0",
+            "1 CIRCLE left out: its radius is not positive",
+        ),
+        (
+            "0 HATCH 8 0 2 SOLID 70 1",
+            "1 HATCH left out: it has no boundary",
+        ),
+        (
+            "0 LWPOLYLINE 8 0 10 3 20 3",
+            "1 LWPOLYLINE left out: it has fewer than two vertices",
+        ),
+        (
+            "0 TEXT 8 0 1 words 40 0",
+            "1 TEXT left out: its text height is not positive",
+        ),
+        (
+            "0 INSERT 8 0 2 gone",
+            "1 INSERT left out: its block is not defined",
+        ),
+        (
+            "0 INSERT 8 0 2 A 70 30000 71 30000",
+            "1 INSERT left out: it makes too many copies",
+        ),
     ] {
         let found = found(&format!("{SQUARE} {entity}")).expect(entity);
         assert_near(found.regions.area(), 16.0);
@@ -246,9 +282,14 @@ fn a_file_is_refused_if_nothing_remains_or_its_structure_is_broken() {
     assert!(error("0 LINE 8 0 ten 1").contains("line 9: a group code is missing"));
     let nothing = error("0 LINE 8 0 10 x 20 0 0 RAY 8 0 0 RAY 8 0");
     let reasons = ["1 LINE left out: a value", "2 RAY left out: it has no end"];
-    assert!(reasons.iter().all(|reason| nothing.contains(reason)), "{nothing}");
+    assert!(
+        reasons.iter().all(|reason| nothing.contains(reason)),
+        "{nothing}"
+    );
     let whole = text(&[("ENTITIES", SQUARE)]);
-    let cut = read_with(&whole.as_bytes()[..100], 1e-5).err().expect("cut");
+    let cut = read_with(&whole.as_bytes()[..100], 1e-5)
+        .err()
+        .expect("cut");
     assert!(cut.to_string().contains("is incomplete"), "{cut}");
 }
 
@@ -264,7 +305,10 @@ fn recursive_and_exponential_blocks_are_limited() {
         blocks += &format!("0 BLOCK 2 B{level} {copies} 0 ENDBLK ");
     }
     let bomb = text(&[("BLOCKS", &blocks), ("ENTITIES", "0 INSERT 8 0 2 B14")]);
-    assert_eq!(read_with(bomb.as_bytes(), 1e-5).err(), Some(DxfError::TooMany));
+    assert_eq!(
+        read_with(bomb.as_bytes(), 1e-5).err(),
+        Some(DxfError::TooMany)
+    );
 }
 
 #[test]

@@ -103,12 +103,20 @@ impl TextReader {
             _ => record.text(1),
         };
         let style = name_key(record.text(7));
-        let style = self.styles.get(&style).or_else(|| self.styles.get(&b"STANDARD"[..]));
+        let style = self
+            .styles
+            .get(&style)
+            .or_else(|| self.styles.get(&b"STANDARD"[..]));
         let font = style.map(|style| Rc::clone(&style.font));
-        let font = font.filter(|name| !name.is_empty()).unwrap_or_else(|| DEFAULT_FONT.into());
+        let font = font
+            .filter(|name| !name.is_empty())
+            .unwrap_or_else(|| DEFAULT_FONT.into());
         let mut remarks = Vec::new();
         let shape = if record.kind == b"MTEXT" {
-            let chunks = record.pairs.iter().filter(|pair| matches!(pair.code, 1 | 3));
+            let chunks = record
+                .pairs
+                .iter()
+                .filter(|pair| matches!(pair.code, 1 | 3));
             let all: Vec<u8> = chunks.flat_map(|pair| pair.text()).copied().collect();
             let (text, has_codes) = plain_mtext(&decode(&all));
             if has_codes {
@@ -120,13 +128,20 @@ impl TextReader {
             self.single_line(record, &plain_text(&decode(words)), &mut remarks)?
         };
         let remark = (!remarks.is_empty()).then(|| remarks.join(", "));
-        Ok(shape.map(|shape| DrawnText { shape, font, remark }))
+        Ok(shape.map(|shape| DrawnText {
+            shape,
+            font,
+            remark,
+        }))
     }
 
     /// Converts one line of text to polygons; characters without a glyph are left out and counted
     /// in `missing`.
     fn line(&mut self, text: &str, missing: &mut usize) -> Result<LetteredLine, EntityFault> {
-        let font = self.font.as_ref().ok_or("the bundled font cannot be read")?;
+        let font = self
+            .font
+            .as_ref()
+            .ok_or("the bundled font cannot be read")?;
         self.characters += text.chars().count();
         if self.characters > MAX_CHARS {
             return Err("the drawing has too much text".into());
@@ -139,7 +154,10 @@ impl TextReader {
 
     /// Returns the height of capital letters and the depth of descenders in units of the font.
     fn metrics(&self) -> Result<[f64; 2], EntityFault> {
-        let font = self.font.as_ref().ok_or("the bundled font cannot be read")?;
+        let font = self
+            .font
+            .as_ref()
+            .ok_or("the bundled font cannot be read")?;
         Ok([font.cap_height, font.descent])
     }
 
@@ -171,7 +189,10 @@ impl TextReader {
             },
             lines: vec![line],
         };
-        let ends = [record.point(10)?, record.optional_point(11)?.unwrap_or(record.point(10)?)];
+        let ends = [
+            record.point(10)?,
+            record.optional_point(11)?.unwrap_or(record.point(10)?),
+        ];
         let is_spanned = matches!(across, 3 | 5);
         let anchor = ends[usize::from(!is_spanned && (across, up) != (0, 0))];
         let span = ends[1].truncate() - ends[0].truncate();
@@ -225,7 +246,9 @@ impl TextReader {
             },
         };
         let at = record.point(10)?;
-        let along = record.optional_point(11)?.map(|direction| direction.truncate());
+        let along = record
+            .optional_point(11)?
+            .map(|direction| direction.truncate());
         let turn = match along.filter(|along| along.length() > 0.0) {
             Some(along) => along.to_angle(),
             None => record.real(50, 0.0)?.to_radians(),
@@ -306,7 +329,11 @@ fn sign_of(flag: i64) -> f64 {
 fn slant(degrees: f64) -> DMat2 {
     // An angle of 350° means −10°.
     let degrees = (degrees + 180.0).rem_euclid(360.0) - 180.0;
-    let shear = if degrees.abs() < 90.0 { degrees.to_radians().tan() } else { 0.0 };
+    let shear = if degrees.abs() < 90.0 {
+        degrees.to_radians().tan()
+    } else {
+        0.0
+    };
     DMat2::from_cols(DVec2::X, DVec2::new(shear, 1.0))
 }
 

@@ -298,6 +298,7 @@ fn join_outline(verbs: &[PathVerb], points: &[DVec2]) -> OutlinePath {
     };
     OutlinePath {
         commands: verbs.iter().map(step).collect(),
+        ..OutlinePath::default()
     }
 }
 
@@ -317,7 +318,10 @@ mod tests {
             PathCommand::Cubic(p(4.0), p(5.0), p(6.0)),
             PathCommand::Close,
         ];
-        OutlinePath { commands: steps }
+        OutlinePath {
+            commands: steps,
+            ..OutlinePath::default()
+        }
     }
 
     fn gradient(paint: Paint) -> Gradient {
