@@ -1,7 +1,7 @@
 //! Polylines with a width, and strokes along lines.
 //!
 //! A band of constant width and a stroke are outlined by `tiny-skia`; a band whose width changes
-//! consists of one trapezium for each chord. `tiny-skia` computes in `f32`, so the points are first
+//! consists of one trapezium for each chord, which meet in mitres. `tiny-skia` computes in `f32`, so the points are first
 //! moved to the origin and scaled.
 
 use super::curve::DxfCurve;
@@ -76,23 +76,84 @@ impl WideBand {
             .collect())
     }
 
-    /// Returns one trapezium for each chord. All run counter-clockwise, so that they unite under
-    /// the non-zero rule.
+    /// Returns one trapezium for each chord, and a triangle for each corner that is too sharp for
+    /// the trapezia to meet. All run counter-clockwise, so that they unite under the non-zero rule.
     fn trapezia(&self, tolerance: f64) -> WindingRings {
-        let mut rings = Vec::new();
+        let chords = self.chords(tolerance);
+        let mut rings = Vec::with_capacity(chords.len());
+        for (k, chord) in chords.iter().enumerate() {
+            let [before, after] = [k.checked_sub(1), Some(k + 1)].map(|k| chords.get(k?));
+            let (first, last) = match self.is_closed {
+                true => (before.or(chords.last()), after.or(chords.first())),
+                false => (before, after),
+            };
+            let [from, to] = chord.ends;
+            let start = chord.half_widths[0] * first.map_or(chord.side, |first| chord.mitre(first));
+            let end = chord.half_widths[1] * last.map_or(chord.side, |last| chord.mitre(last));
+            rings.push(vec![from - start, to - end, to + end, from + start]);
+            rings.extend(last.and_then(|last| chord.wedge(last)));
+        }
+        rings
+    }
+
+    /// Returns the chords of the flattened band.
+    fn chords(&self, tolerance: f64) -> Vec<BandChord> {
+        let mut chords = Vec::new();
         for (curve, &[from, to]) in self.curves.iter().zip(&self.widths) {
             let mut points = Vec::new();
             curve.flatten(tolerance, &mut points);
             points.dedup();
-            let chords = points.len().saturating_sub(1).max(1) as f64;
-            for (k, chord) in points.windows(2).enumerate() {
-                let half = |k: usize| 0.5 * (from + (to - from) * (k as f64 / chords));
-                let side = (chord[1] - chord[0]).normalize_or_zero().perp();
-                let [a, b] = [side * half(k), side * half(k + 1)];
-                rings.push(vec![chord[0] - a, chord[1] - b, chord[1] + b, chord[0] + a]);
-            }
+            let count = points.len().saturating_sub(1).max(1) as f64;
+            let half_width = |k: usize| 0.5 * (from + (to - from) * (k as f64 / count));
+            let chord = |(k, ends): (usize, &[DVec2])| BandChord {
+                ends: [ends[0], ends[1]],
+                half_widths: [half_width(k), half_width(k + 1)],
+                side: (ends[1] - ends[0]).normalize_or_zero().perp(),
+            };
+            chords.extend(points.windows(2).enumerate().map(chord));
         }
-        rings
+        chords
+    }
+}
+
+/// Straight piece of a band.
+struct BandChord {
+    ends: [DVec2; 2],
+    /// Half of the width at each end.
+    half_widths: [f64; 2],
+    /// Unit vector to the left.
+    side: DVec2,
+}
+
+/// Cosine of the largest turn at which two chords meet in a mitre (DXF programs cut corners off
+/// beyond a turn of 150°; here beyond 90°, from where a mitre is longer than the band is wide).
+const MITRE_COSINE: f64 = 0.0;
+
+impl BandChord {
+    /// Returns the direction, scaled by the length of a mitre, in which the outline lies at the end
+    /// that this chord shares with another one.
+    fn mitre(&self, other: &Self) -> DVec2 {
+        let cosine = self.side.dot(other.side);
+        match cosine > MITRE_COSINE {
+            true => (self.side + other.side) / (1.0 + cosine),
+            false => self.side,
+        }
+    }
+
+    /// Returns the triangle that fills the outer side of the corner between this chord and the
+    /// next one; `None` if they meet in a mitre.
+    fn wedge(&self, next: &Self) -> Option<Vec<DVec2>> {
+        if self.side.dot(next.side) > MITRE_COSINE {
+            return None;
+        }
+        let corner = self.ends[1];
+        let half_width = self.half_widths[1].min(next.half_widths[0]);
+        let [a, b] = [half_width * self.side, half_width * next.side];
+        // In a left turn, the outer side is the right one.
+        Some(match self.side.perp_dot(next.side) > 0.0 {
+            true => vec![corner, corner - a, corner - b],
+            false => vec![corner, corner + b, corner + a],
+        })
     }
 }
 

@@ -137,7 +137,10 @@ impl DxfReader {
     /// Reads a record of the sections BLOCKS and ENTITIES.
     fn entity(&mut self, record: &DxfRecord, records: &mut RecordReader) -> Result<(), DxfError> {
         match record.kind {
-            b"SEQEND" | b"VERTEX" => {}
+            // A VIEWPORT shows the model in a layout; it has no content of its own.
+            b"SEQEND" | b"VERTEX" | b"VIEWPORT" => {}
+            // Definition points of dimensions are not plotted.
+            b"POINT" if record.text(8).eq_ignore_ascii_case(b"DEFPOINTS") => {}
             b"BLOCK" => self.open = Some(self.named_block(record)),
             b"ENDBLK" => self.blocks.extend(self.open.take()),
             b"POLYLINE" => {

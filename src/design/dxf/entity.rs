@@ -92,7 +92,6 @@ fn reason_to_leave_out(kind: &[u8]) -> &'static str {
             "left out: embedded and attached pictures are not read"
         }
         b"SHAPE" => "left out: its shape file is not read; explode it",
-        b"VIEWPORT" => "left out: views of other layouts are not drawn",
         b"LIGHT" | b"SUN" | b"CAMERA" | b"SECTION" | b"GEOPOSITIONMARKER" => {
             "left out: it has no outline"
         }
@@ -243,10 +242,24 @@ impl DxfRecord<'_> {
             };
             corners.push(plan.transform_point2(corner));
         }
-        Ok(EntityShape::Area(AreaLoops {
-            loops: vec![vec![DxfCurve::Chain(corners)]],
-            rule: FillRule::NonZero,
-        }))
+        let is_flat = corners.windows(2).all(|edge| {
+            let along = corners
+                .iter()
+                .map(|&p| (p - corners[0]).perp_dot(edge[1] - edge[0]));
+            along.fold(0.0, |far: f64, distance| far.max(distance.abs())) == 0.0
+        });
+        let outline = vec![DxfCurve::Chain(corners)];
+        // A face seen from its edge is a line.
+        Ok(match is_flat {
+            true => EntityShape::Path {
+                curves: outline,
+                is_closed: true,
+            },
+            false => EntityShape::Area(AreaLoops {
+                loops: vec![outline],
+                rule: FillRule::NonZero,
+            }),
+        })
     }
 
     /// Converts an MLINE: one line for each element of its style.

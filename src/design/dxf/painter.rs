@@ -65,6 +65,7 @@ pub(super) fn paint(
     // Duplicate rings are already counted. Add the duplicate curves.
     let repairs = repairs.get_or_insert_with(Repairs::default);
     repairs.duplicates += painter.sheet.duplicates;
+    repairs.flat += painter.sheet.empty_areas;
     notes.splice(..0, ImportNote::from_repairs(repairs, FillRule::EvenOdd));
     let unit = painter.drawing.unit;
     let reported = painter.drawing.report.into_notes();

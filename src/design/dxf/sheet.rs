@@ -10,7 +10,7 @@ use super::expansion::{AreaShape, DxfArea, DxfDrawing, DxfPath};
 use super::join::join_curves;
 use crate::design::flatten::{Flattener, MAX_POINTS, TooManyPoints};
 use crate::design::svg::WindingRings;
-use crate::geometry::{DVec2, Regions};
+use crate::geometry::{DVec2, FillRule, Regions, perimeter, signed_area};
 use std::collections::BTreeMap;
 
 /// Lengths by which a drawing is flattened and joined, in drawing units.
@@ -44,6 +44,14 @@ pub(super) struct OutlineRing {
     pub paths: Vec<usize>,
 }
 
+impl OutlineRing {
+    /// Returns whether the ring is more than a line there and back; `rounding` is the distance up
+    /// to which points count as equal.
+    fn encloses_area(&self, rounding: f64) -> bool {
+        signed_area(&self.points).abs() > rounding * perimeter(&self.points)
+    }
+}
+
 /// Flattened area.
 pub(super) struct FlatArea {
     /// Outlines, filled by the non-zero rule.
@@ -62,16 +70,20 @@ pub(super) struct Sheet {
     pub areas: Vec<FlatArea>,
     /// Number of duplicate curves that were ignored.
     pub duplicates: usize,
+    /// Number of areas that enclose nothing and were ignored.
+    pub empty_areas: usize,
 }
 
 impl Sheet {
     /// Flattens a drawing and joins its curves.
     pub fn of(drawing: &DxfDrawing, scale: SheetScale) -> Result<Self, DxfError> {
+        let areas = flatten_areas(&drawing.areas, scale)?;
         let mut sheet = Self {
             paths: flatten_paths(&drawing.paths, scale)?,
             rings: Vec::new(),
             lines: Vec::new(),
-            areas: flatten_areas(&drawing.areas, scale)?,
+            empty_areas: drawing.areas.len() - areas.len(),
+            areas,
             duplicates: 0,
         };
         let mut open_by_style: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -90,6 +102,13 @@ impl Sheet {
             remaining.extend(sheet.join(&paths, scale.gap));
         }
         sheet.lines = sheet.join(&remaining, scale.gap);
+        let (rings, flat): (Vec<_>, Vec<_>) = std::mem::take(&mut sheet.rings)
+            .into_iter()
+            .partition(|ring| ring.encloses_area(scale.rounding));
+        sheet.rings = rings;
+        sheet
+            .lines
+            .extend(flat.into_iter().flat_map(|ring| ring.paths));
         Ok(sheet)
     }
 
@@ -169,7 +188,7 @@ fn flatten_areas(areas: &[DxfArea], scale: SheetScale) -> Result<Vec<FlatArea>, 
         let (rings, rule) = match &area.shape {
             AreaShape::Band(band) => {
                 let rings = band.area(scale.tolerance, &mut flattener)?;
-                (rings, crate::geometry::FillRule::NonZero)
+                (rings, FillRule::NonZero)
             }
             AreaShape::Loops(area) => {
                 let rings = area
