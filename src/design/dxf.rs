@@ -5,8 +5,8 @@
 //! ACAD_TABLE and INSERT. Curves are joined end to end into closed outlines; end points closer than
 //! [`JOIN_TOLERANCE`] count as one. Closed outlines are filled by the even-odd rule, unless the
 //! fill would hide what is drawn inside them. Curves that do not close are lines with a width:
-//! their line weight if the file declares its unit, but at least the fraction [`HAIR`] of the
-//! drawing. Hatches, solids and letters are areas. Each combination of DXF layer and colour becomes
+//! their line weight in the declared unit, or relative to the default line weight, and at least the
+//! fraction [`HAIR`] of the drawing. Hatches, solids and letters are areas. Each combination of DXF layer and colour becomes
 //! one or more paint layers; lines lie above areas, text above both.
 //!
 //! One drawing unit is one design unit. Layers that are off or frozen, invisible entities and paper

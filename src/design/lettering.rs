@@ -131,9 +131,18 @@ fn check_characters(font: &FontRef, text: &str) -> Result<(), TextError> {
 /// em.
 pub(super) struct LineFont {
     font: FontRef<'static>,
+    /// Heights of its letters.
+    pub heights: LetterHeights,
+}
+
+/// Heights of the letters of a font above its baseline.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LetterHeights {
     /// Height of capital letters.
-    pub cap_height: f64,
-    /// Depth of descenders below the baseline.
+    pub cap: f64,
+    /// Height of small letters without ascenders.
+    pub x: f64,
+    /// Depth of the descender of the letter p below the baseline.
     pub descent: f64,
 }
 
@@ -150,14 +159,20 @@ impl LineFont {
     pub(super) fn bundled() -> Result<Self, TextError> {
         let font = parsed_font(BUNDLED_FONT)?;
         let metrics = font.metrics(Size::unscaled(), LocationRef::default());
-        let cap_height = metrics.cap_height.filter(|&height| height > 0.0);
-        let cap_height = cap_height.ok_or(TextError::Font("it lacks the height of capitals"))?;
+        let cap = metrics.cap_height.filter(|&height| height > 0.0);
+        let cap = cap.ok_or(TextError::Font("it lacks the height of capitals"))?;
+        let glyphs = font.glyph_metrics(Size::unscaled(), LocationRef::default());
+        let p = font
+            .charmap()
+            .map('p')
+            .and_then(|glyph| glyphs.bounds(glyph));
         let scale = EM / f64::from(metrics.units_per_em.max(1));
-        Ok(Self {
-            cap_height: scale * f64::from(cap_height),
-            descent: -scale * f64::from(metrics.descent).min(0.0),
-            font,
-        })
+        let heights = LetterHeights {
+            cap: scale * f64::from(cap),
+            x: scale * f64::from(metrics.x_height.unwrap_or(cap)),
+            descent: -scale * f64::from(p.map_or(metrics.descent, |bounds| bounds.y_min)),
+        };
+        Ok(Self { font, heights })
     }
 
     /// Returns whether the font has a glyph for a character.
@@ -171,7 +186,7 @@ impl LineFont {
     pub(super) fn line(&self, text: &str, tolerance: f64) -> Result<LetteredLine, TextError> {
         let line = TextLine::shape(&self.font, text)?;
         let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * EM);
-        let baseline = DVec2::new(0.0, self.descent);
+        let baseline = DVec2::new(0.0, line.baseline);
         let mut rings = line.rings(&self.font, &mut flattener)?;
         rings.iter_mut().flatten().for_each(|p| *p -= baseline);
         Ok(LetteredLine {
@@ -189,6 +204,8 @@ struct TextLine {
     scale: f64,
     /// Page rectangle from advances, ascent and descent.
     page: Bounds,
+    /// Height of the baseline above the lower edge of the page.
+    baseline: f64,
 }
 
 impl TextLine {
@@ -237,6 +254,7 @@ impl TextLine {
             glyphs,
             scale,
             page,
+            baseline: -below * scale,
         })
     }
 

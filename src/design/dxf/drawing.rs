@@ -1,7 +1,7 @@
 //! Reads the sections of a DXF file: header, layers, text styles, blocks and entities.
 
 use super::encoding::decode;
-use super::entity::{DxfEntity, EntityShape};
+use super::entity::{DxfEntity, EntityShape, MULTILINE_REMARK};
 use super::error::{DxfError, MAX_OBJECTS, check_count};
 use super::expansion::{BlockExpansion, DxfDrawing};
 use super::note::{DxfNote, EntityReport};
@@ -48,6 +48,8 @@ struct DxfReader {
     unit: Option<LengthUnit>,
     /// Code page that the header names.
     code_page: String,
+    /// Whether a style of MLINE entities has caps or a fill.
+    has_multiline_caps: bool,
 }
 
 /// Reads a DXF file and expands its block references. `tolerance` is the maximum deviation of
@@ -64,6 +66,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<DxfDrawing, DxfError>
         report: EntityReport::default(),
         unit: None,
         code_page: String::new(),
+        has_multiline_caps: false,
     };
     // `None` between sections.
     let mut section = None;
@@ -81,6 +84,11 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<DxfDrawing, DxfError>
             (b"SPATIAL_FILTER", Some(DxfSection::Objects)) => {
                 let what = "ignored: the block is drawn without its clipping boundary";
                 reader.report.add(&record.remark(what), "0");
+            }
+            (b"MLINESTYLE", Some(DxfSection::Objects)) => {
+                let flags = record.integer(70).unwrap_or(0);
+                // Flag 2 shows mitres at the corners; all others are caps or a fill.
+                reader.has_multiline_caps |= flags & !2 != 0;
             }
             _ => {}
         }
@@ -215,7 +223,7 @@ impl DxfReader {
                     return Ok(None);
                 };
                 remark = text.remark.map(|what| record.remark(what));
-                font = Some(text.font);
+                font = text.font;
                 Ok(text.shape)
             }
             b"POLYLINE" => record.polyline(vertices)?,
@@ -260,6 +268,9 @@ impl DxfReader {
         let code_page = (!is_decoded).then(|| DxfNote::CodePage(self.code_page));
         let expansion = BlockExpansion::new(&self.blocks, &mut self.layers, self.report);
         let mut drawing = expansion.expand(&self.entities)?;
+        if !self.has_multiline_caps {
+            drawing.report.remove("MLINE", MULTILINE_REMARK);
+        }
         drawing.unit = self.unit;
         drawing.notes.extend(code_page);
         Ok(drawing)

@@ -68,6 +68,9 @@ pub(super) struct BlockReference {
     pub at: DxfPlace,
 }
 
+/// Treatment of an MLINE whose style may have caps or a fill.
+pub(super) const MULTILINE_REMARK: &str = "drawn without caps and fill";
+
 /// Maximum number of block copies that one INSERT makes (resource limit: a grid of 100 by 100;
 /// checked before memory for the copies is allocated).
 const MAX_COPIES: i64 = 10_000;
@@ -149,7 +152,7 @@ impl DxfRecord<'_> {
                 fill.what
             }),
             b"LEADER" if self.integer_or(71, 1)? != 0 => Some("drawn without its arrow".into()),
-            b"MLINE" => Some("drawn without caps and fill".into()),
+            b"MLINE" => Some(MULTILINE_REMARK.into()),
             _ => None,
         };
         Ok((style, what.map(|what| self.remark(what))))

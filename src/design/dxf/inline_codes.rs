@@ -47,7 +47,7 @@ pub(super) fn plain_mtext(text: &str) -> (String, bool) {
             },
             '\\' => match characters.next() {
                 Some('P' | 'N' | 'X') => result.push('\n'),
-                Some('~') => result.push(' '),
+                Some('~') => result.push('\u{a0}'),
                 Some(literal @ ('\\' | '{' | '}')) => result.push(literal),
                 Some('L' | 'l' | 'O' | 'o' | 'K' | 'k') => has_codes = true,
                 Some('S') => {
@@ -85,7 +85,7 @@ mod tests {
     #[test]
     fn formatting_is_removed() {
         let (text, has_codes) = plain_mtext("{\\fArial|b0;A\\H2x;B}\\Pa\\~b \\S1^2; \\\\ \\{c\\}");
-        assert_eq!(text, "AB\na b 1/2 \\ {c}");
+        assert_eq!(text, "AB\na\u{a0}b 1/2 \\ {c}");
         assert!(has_codes);
         assert_eq!(plain_mtext("a^Jb"), ("a\nb".to_owned(), false));
     }

@@ -151,6 +151,11 @@ impl EntityReport {
         self.entities.entry(key.clone()).or_insert_with(first).count += 1;
     }
 
+    /// Removes the remarks on entities of a type that turned out to be treated exactly.
+    pub fn remove(&mut self, kind: &str, what: &str) {
+        self.entities.remove(&(kind.to_owned(), what.to_owned()));
+    }
+
     /// Adds the name of a font that was replaced by the bundled font.
     pub fn add_font(&mut self, name: &str) {
         if self.fonts.len() < MAX_REMARKS {

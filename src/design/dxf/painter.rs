@@ -32,6 +32,7 @@ pub(super) fn paint(
     strokes: bool,
 ) -> Result<DxfImport, DxfError> {
     let mut painter = SheetPainter {
+        units_per_mm: units_per_mm(&drawing, scale.hair),
         drawing,
         sheet,
         scale,
@@ -108,6 +109,19 @@ struct SheetPainter {
     drawing: DxfDrawing,
     sheet: Sheet,
     scale: SheetScale,
+    /// Width of a line with a line weight of 1 mm, in drawing units.
+    units_per_mm: f64,
+}
+
+/// Returns the width of a line with a line weight of 1 mm, in drawing units. Line weights count in
+/// the unit of the drawing if the heaviest line is at least a hair wide. Otherwise, as in a plan of
+/// a building, and without a unit, they are relative to the default line weight, which is a hair.
+fn units_per_mm(drawing: &DxfDrawing, hair: f64) -> f64 {
+    let styles = drawing.paths.iter().map(|path| &drawing.styles[path.style]);
+    let heaviest = styles.fold(0.0, |heaviest: f64, style| heaviest.max(style.weight));
+    let exact = drawing.unit.map(|unit| 1.0 / unit.millimetres());
+    let exact = exact.filter(|exact| heaviest * exact >= hair);
+    exact.unwrap_or(hair / DEFAULT_WEIGHT)
 }
 
 impl SheetPainter {
@@ -116,13 +130,9 @@ impl SheetPainter {
         &self.drawing.styles[self.sheet.paths[path].style]
     }
 
-    /// Returns the width of a line in drawing units. The default line weight is at least a hair
-    /// wide, and other line weights are scaled with it; none is thinner than a hair.
+    /// Returns the width of a line in drawing units; none is thinner than a hair.
     fn width_of(&self, path: usize) -> f64 {
-        let hair = self.scale.hair;
-        let unit = self.drawing.unit;
-        let units_per_mm = unit.map_or(0.0, |unit| 1.0 / unit.millimetres());
-        (self.style_of(path).weight * units_per_mm.max(hair / DEFAULT_WEIGHT)).max(hair)
+        (self.style_of(path).weight * self.units_per_mm).max(self.scale.hair)
     }
 
     fn ring_points(&self) -> WindingRings {

@@ -10,7 +10,9 @@ use super::expansion::{AreaShape, DxfArea, DxfDrawing, DxfPath};
 use super::join::join_curves;
 use crate::design::flatten::{Flattener, MAX_POINTS, TooManyPoints};
 use crate::design::svg::WindingRings;
-use crate::geometry::{DVec2, FillRule, Regions, perimeter, signed_area};
+use crate::geometry::{
+    Bounds, DVec2, EdgeBvh, FillRule, Regions, distance_squared_to_segment, perimeter, signed_area,
+};
 use std::collections::BTreeMap;
 
 /// Lengths by which a drawing is flattened and joined, in drawing units.
@@ -106,6 +108,7 @@ impl Sheet {
             .into_iter()
             .partition(|ring| ring.encloses_area(scale.rounding));
         sheet.rings = rings;
+        snap_duplicates(&mut sheet.rings, 2.0 * scale.tolerance);
         sheet
             .lines
             .extend(flat.into_iter().flat_map(|ring| ring.paths));
@@ -141,6 +144,53 @@ impl Sheet {
         let longest = lengths.into_iter().rev().max_by(|a, b| a.1.total_cmp(&b.1));
         longest.map_or(0, |(style, _)| style)
     }
+}
+
+/// Number of rings with nearly the same bounding box with which a ring is compared (resource limit).
+const MAX_COMPARED: usize = 8;
+
+/// Gives rings that are everywhere at most `within` apart the same points, so that they count as
+/// duplicates: an outline may be drawn once as arcs and once as a polyline, which are flattened
+/// differently.
+fn snap_duplicates(rings: &mut [OutlineRing], within: f64) {
+    let boxes: Vec<Bounds> = rings
+        .iter()
+        .filter_map(|ring| Bounds::of(ring.points.iter().copied()))
+        .collect();
+    if boxes.len() < rings.len() {
+        return; // not reached: a ring has points
+    }
+    let key = |ring: usize| {
+        let Bounds { min, max } = boxes[ring];
+        [min.x, min.y, max.x, max.y].map(|x| (x / (4.0 * within)).round() as i64)
+    };
+    let mut order: Vec<usize> = (0..rings.len()).collect();
+    order.sort_by_key(|&ring| (key(ring), ring));
+    for (k, &ring) in order.iter().enumerate() {
+        let earlier = order[k.saturating_sub(MAX_COMPARED)..k].iter().rev();
+        let twin = earlier
+            .take_while(|&&other| key(other) == key(ring))
+            .find(|&&other| {
+                let areas = [ring, other].map(|ring| signed_area(&rings[ring].points).abs());
+                let slack = within * perimeter(&rings[ring].points);
+                (areas[0] - areas[1]).abs() <= slack && follows(&rings[ring], &rings[other], within)
+            });
+        if let Some(&twin) = twin {
+            rings[ring].points = rings[twin].points.clone();
+        }
+    }
+}
+
+/// Returns whether all points of a ring lie at most `within` from another ring.
+fn follows(ring: &OutlineRing, other: &OutlineRing, within: f64) -> bool {
+    let edges = EdgeBvh::of(&other.points);
+    ring.points.iter().all(|&p| {
+        let place = Bounds { min: p, max: p }.padded(within);
+        let limit = within * within;
+        edges.any_edge_near(&place, &|[a, b]| {
+            distance_squared_to_segment(p, a, b) <= limit
+        })
+    })
 }
 
 /// Flattens paths; leaves out those that are a single point.

@@ -1,6 +1,11 @@
 //! Tests of the DXF importer: curves, rings, blocks, colours, hidden entities, both binary
 //! encodings, notes, errors and limits.
 
+mod fills;
+mod lines;
+mod silence;
+mod texts;
+
 use super::*;
 use crate::colour::Rgb;
 use crate::design::note::ImportNote;

@@ -10,7 +10,7 @@ use super::entity::{AreaLoops, EntityShape};
 use super::inline_codes::{plain_mtext, plain_text};
 use super::record::{DxfRecord, EntityFault};
 use super::style::name_key;
-use crate::design::lettering::{LetteredLine, LineFont};
+use crate::design::lettering::{LetterHeights, LetteredLine, LineFont};
 use crate::geometry::{DVec2, FillRule};
 use glam::{DAffine2, DMat2};
 use std::collections::HashMap;
@@ -21,6 +21,9 @@ const LINE_SPACING: f64 = 5.0 / 3.0;
 
 /// Maximum number of characters of all texts of a file (resource limit: a hundred pages).
 const MAX_CHARS: usize = 200_000;
+
+/// File name of the bundled font, in capitals; text in this font is drawn exactly.
+const BUNDLED_NAME: &str = "ROBOTO-BOLD.TTF";
 
 /// Font file of the text style that a drawing without text styles uses.
 const DEFAULT_FONT: &str = "txt";
@@ -48,8 +51,8 @@ pub(super) struct TextReader {
 /// Converted text.
 pub(super) struct DrawnText {
     pub shape: EntityShape,
-    /// Name of the font that was replaced by the bundled one.
-    pub font: Rc<str>,
+    /// Name of the font that was replaced by the bundled one, if any.
+    pub font: Option<Rc<str>>,
     /// Approximation, as worded in a note.
     pub remark: Option<String>,
 }
@@ -130,7 +133,7 @@ impl TextReader {
         let remark = (!remarks.is_empty()).then(|| remarks.join(", "));
         Ok(shape.map(|shape| DrawnText {
             shape,
-            font,
+            font: (!font.eq_ignore_ascii_case(BUNDLED_NAME)).then_some(font),
             remark,
         }))
     }
@@ -152,13 +155,10 @@ impl TextReader {
         line.map_err(|_| "its letters cannot be drawn".into())
     }
 
-    /// Returns the height of capital letters and the depth of descenders in units of the font.
-    fn metrics(&self) -> Result<[f64; 2], EntityFault> {
-        let font = self
-            .font
-            .as_ref()
-            .ok_or("the bundled font cannot be read")?;
-        Ok([font.cap_height, font.descent])
+    /// Returns the heights of letters in units of the font.
+    fn heights(&self) -> Result<LetterHeights, EntityFault> {
+        let font = self.font.as_ref();
+        Ok(font.ok_or("the bundled font cannot be read")?.heights)
     }
 
     /// Converts a TEXT, ATTRIB or ATTDEF.
@@ -171,7 +171,7 @@ impl TextReader {
         let mut missing = 0;
         let line = self.line(text, &mut missing)?;
         remarks.extend(missing_remark(missing));
-        let [cap_height, descent] = self.metrics()?;
+        let heights = self.heights()?;
         let vertical_code = if record.kind == b"TEXT" { 73 } else { 74 };
         let (across, up) = (record.integer(72)?, record.integer(vertical_code)?);
         let block = TextBlock {
@@ -182,9 +182,12 @@ impl TextReader {
                 _ => 0.0,
             },
             anchor_y: match (across, up) {
-                (4, _) | (_, 2) => 0.5 * cap_height,
-                (_, 1) => -descent,
-                (_, 3) => cap_height,
+                // "Middle" is halfway up the small letters, "middle left" and the like halfway up
+                // the capitals.
+                (4, _) => 0.5 * heights.x,
+                (_, 1) => -heights.descent,
+                (_, 2) => 0.5 * heights.cap,
+                (_, 3) => heights.cap,
                 _ => 0.0,
             },
             lines: vec![line],
@@ -196,7 +199,7 @@ impl TextReader {
         let is_spanned = matches!(across, 3 | 5);
         let anchor = ends[usize::from(!is_spanned && (across, up) != (0, 0))];
         let span = ends[1].truncate() - ends[0].truncate();
-        let scale = positive_height(record)? / cap_height;
+        let scale = positive_height(record)? / heights.cap;
         let mut stretch = DVec2::splat(scale) * DVec2::new(record.real(41, 1.0)?, 1.0);
         let mut turn = record.real(50, 0.0)?.to_radians();
         if is_spanned && span.length() > 0.0 && block.lines[0].width > 0.0 {
@@ -223,8 +226,8 @@ impl TextReader {
         [width_factor, oblique]: [f64; 2],
         remarks: &mut Vec<String>,
     ) -> Result<Option<EntityShape>, EntityFault> {
-        let [cap_height, descent] = self.metrics()?;
-        let scale = positive_height(record)? / cap_height;
+        let heights = self.heights()?;
+        let scale = positive_height(record)? / heights.cap;
         let column = record.real(41, 0.0)? / (scale * width_factor.max(f64::MIN_POSITIVE));
         let mut missing = 0;
         let mut lines = Vec::new();
@@ -232,7 +235,7 @@ impl TextReader {
             self.wrap(paragraph, column, &mut lines, &mut missing)?;
         }
         remarks.extend(missing_remark(missing));
-        let leading = LINE_SPACING * cap_height * record.real(44, 1.0)?;
+        let leading = LINE_SPACING * heights.cap * record.real(44, 1.0)?;
         let attachment = record.integer_or(71, 1)?.clamp(1, 9) - 1;
         let last_baseline = -leading * lines.len().saturating_sub(1) as f64;
         let block = TextBlock {
@@ -240,9 +243,9 @@ impl TextReader {
             leading,
             align_x: [0.0, 0.5, 1.0][(attachment % 3) as usize],
             anchor_y: match attachment / 3 {
-                0 => cap_height,
-                1 => 0.5 * (cap_height + last_baseline),
-                _ => last_baseline - descent,
+                0 => heights.cap,
+                1 => 0.5 * (heights.x + last_baseline),
+                _ => last_baseline - heights.descent,
             },
         };
         let at = record.point(10)?;
