@@ -67,7 +67,7 @@ impl VectorAnimation {
     /// Returns a Lottie animation as JSON.
     #[must_use]
     pub fn lottie(&self, title: &str) -> String {
-        lottie::lottie_json(self, title).to_string()
+        lottie::lottie_json(self, title)
     }
 }
 
