@@ -1,11 +1,11 @@
 //! Writes transitions to files: single frames (PNG, SVG, DXF), contact sheets, numbered frames,
-//! GIF, animated PNG, MP4, and animated vector graphics (SVG, HTML, Lottie). Needs neither a GPU
-//! nor a display.
+//! GIF, animated PNG, video (MP4, WebM, MOV), and animated vector graphics (SVG, HTML, Lottie).
+//! Needs neither a GPU nor a display.
 //!
 //! All formats are written from the same [`Drawing`] of a frame, so a frame looks the same in each.
 //! Files are written atomically; films are read back and verified before they replace an earlier
-//! file. The same transition gives the same bytes on every run, except for MP4, which ffmpeg
-//! encodes. Frames are drawn on all cores and written in order. This module does not depend on the
+//! file. The same transition gives the same bytes on every run, except for videos, which
+//! ffmpeg encodes. Frames are drawn on all cores and written in order. This module does not depend on the
 //! window or the command line.
 //!
 //! ```no_run
@@ -46,8 +46,6 @@ mod glyph_outlines;
 mod labels;
 mod layout;
 mod map_sheet;
-#[cfg(not(target_family = "wasm"))]
-mod mp4;
 mod outline;
 mod pair_sheet;
 mod palette;
@@ -62,6 +60,8 @@ mod target;
 #[cfg(test)]
 mod test_camera;
 mod vector_animation;
+#[cfg(not(target_family = "wasm"))]
+mod video;
 mod view;
 
 #[cfg(feature = "bevy")]
@@ -87,8 +87,6 @@ pub use gif::{MAX_GIF_FPS, write_gif};
 pub use labels::text_colour_on;
 pub use layout::{Aspect, LayoutPreset, PictureLayout};
 pub use map_sheet::map_sheet;
-#[cfg(not(target_family = "wasm"))]
-pub use mp4::{has_ffmpeg, write_mp4};
 pub use outline::{MAX_COORDINATE_PX, OutlinePath, PathCommand};
 pub use pair_sheet::{PairStrip, pair_sheet};
 pub use png_sequence::write_numbered;
@@ -101,6 +99,8 @@ pub use target::{
     ExportTarget, ExportTargetError, FilmKind, NumberedFiles, StillKind, extension_list,
 };
 pub use vector_animation::VectorAnimation;
+#[cfg(not(target_family = "wasm"))]
+pub use video::{VideoContainer, has_ffmpeg, write_video};
 pub use view::PlaneView;
 
 /// Writes a film to the given target and returns the paths of the files written. A target for a
@@ -124,10 +124,9 @@ pub fn write_film(
             match kind {
                 FilmKind::Gif => write_gif(camera, film, path, progress)?,
                 FilmKind::Apng => write_apng(camera, film, path, progress)?,
-                #[cfg(not(target_family = "wasm"))]
-                FilmKind::Mp4 => write_mp4(camera, film, path, progress)?,
-                #[cfg(target_family = "wasm")]
-                FilmKind::Mp4 => return Err(ExportError::NoFfmpeg),
+                FilmKind::Mp4 | FilmKind::WebM | FilmKind::Mov => {
+                    write_film_as_video(camera, film, *kind, path, progress)?;
+                }
                 FilmKind::Svg | FilmKind::Html | FilmKind::Lottie => {
                     vector_animation::write_motion(camera, film, *kind, path, progress)?;
                 }
@@ -136,4 +135,33 @@ pub fn write_film(
         }
     };
     Ok(vec![path.clone()])
+}
+
+/// Writes a film as a video file.
+#[cfg(not(target_family = "wasm"))]
+fn write_film_as_video(
+    camera: &Camera,
+    film: &FilmSpec,
+    kind: FilmKind,
+    path: &std::path::Path,
+    progress: &dyn Progress,
+) -> Result<(), ExportError> {
+    let container = match kind {
+        FilmKind::WebM => VideoContainer::WebM,
+        FilmKind::Mov => VideoContainer::Mov,
+        _ => VideoContainer::Mp4,
+    };
+    write_video(camera, film, container, path, progress)
+}
+
+/// Refuses to write a video, because no other programs can be run here.
+#[cfg(target_family = "wasm")]
+fn write_film_as_video(
+    _: &Camera,
+    _: &FilmSpec,
+    _: FilmKind,
+    _: &std::path::Path,
+    _: &dyn Progress,
+) -> Result<(), ExportError> {
+    Err(ExportError::NoFfmpeg)
 }

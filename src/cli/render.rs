@@ -398,12 +398,12 @@ fn write_frames(
             .map_err(CliError::usage)?,
         None => full_film.clone(),
     };
-    let is_mp4 = matches!(target, ExportTarget::Film(FilmKind::Mp4, _));
+    let is_video = matches!(target, ExportTarget::Film(kind, _) if kind.is_video());
     // The view contains the whole film, so that ranges of frames rendered separately fit together.
-    let camera = camera(args, opened, full_film.times(), is_mp4)?;
+    let camera = camera(args, opened, full_film.times(), is_video)?;
     if args.size.is_some_and(|size| size != camera.view.size()) {
         output::message(&format!(
-            "MP4 needs even sides: using {} pixels",
+            "videos need even sides: using {} pixels",
             camera.view.size()
         ));
     }
@@ -437,7 +437,7 @@ fn full_film(
 
 /// Returns a camera whose view contains the sequence at all of the given times.
 ///
-/// If `is_even`, rounds the sides of the image up to even numbers of pixels, as MP4 requires.
+/// If `is_even`, rounds the sides of the image up to even numbers of pixels, as videos require.
 fn camera(
     args: &RenderArgs,
     opened: &OpenedProject,

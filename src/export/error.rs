@@ -45,7 +45,9 @@ pub enum ExportError {
     )]
     GifRate(f64),
     /// An MP4, which has no transparency, was requested with a transparent background.
-    #[error("an MP4 cannot be transparent: choose a background colour, or write an .apng")]
+    #[error(
+        "an MP4 cannot be transparent: write a .webm or .mov video, an .apng or numbered .png images, or choose a background colour"
+    )]
     Mp4Transparent,
     /// A vector format was requested for raster images.
     #[error(
@@ -54,7 +56,7 @@ pub enum ExportError {
     NoOutlines,
     /// No ffmpeg program was found on the PATH.
     #[error(
-        "an MP4 needs ffmpeg, which was not found on the PATH: install it from your system's packages or ffmpeg.org, or write a .gif or .apng"
+        "videos need ffmpeg, which was not found on the PATH: install it from your system's packages or ffmpeg.org, or write a .gif or .apng"
     )]
     NoFfmpeg,
     /// ffmpeg started and failed.

@@ -34,6 +34,10 @@ pub enum FilmKind {
     Apng,
     /// H.264 video, encoded by ffmpeg.
     Mp4,
+    /// VP9 video, encoded by ffmpeg.
+    WebM,
+    /// ProRes 4444 video, encoded by ffmpeg.
+    Mov,
     /// Animated SVG.
     Svg,
     /// HTML page with a player.
@@ -45,11 +49,28 @@ pub enum FilmKind {
 named! { FilmKind {
     Gif: "gif", "GIF", "Plays everywhere, 256 colours";
     Apng: "apng", "APNG", "Full colour, plays in browsers";
-    Mp4: "mp4", "MP4", "Needs ffmpeg on this machine";
+    Mp4: "mp4", "MP4", "Video that plays everywhere, without transparency; needs ffmpeg on this machine";
+    WebM: "webm", "WebM", "Video for web pages, also transparent (VP9); needs ffmpeg on this machine";
+    Mov: "mov", "MOV", "Video for editing, also transparent (ProRes 4444); needs ffmpeg on this machine";
     Svg: "svg", "SVG", "Animated vector outlines, plays in browsers";
     Html: "html", "HTML page", "Vector outlines with a player, in one file";
     Lottie: "json", "Lottie", "Vector outlines with keyframes, for apps, websites and motion design";
 } }
+
+impl FilmKind {
+    /// Returns whether the file is a video, which ffmpeg encodes. Its sides must be even numbers of
+    /// pixels.
+    #[must_use]
+    pub fn is_video(self) -> bool {
+        matches!(self, Self::Mp4 | Self::WebM | Self::Mov)
+    }
+
+    /// Returns whether the file can be transparent.
+    #[must_use]
+    pub fn can_be_transparent(self) -> bool {
+        self != Self::Mp4
+    }
+}
 
 /// Returns the file extensions of all kinds as part of a sentence, such as `.png or .svg`.
 #[must_use]
@@ -196,6 +217,8 @@ mod tests {
         assert_eq!(target("b.gif"), film(FilmKind::Gif, "b.gif"));
         assert_eq!(target("b.apng"), film(FilmKind::Apng, "b.apng"));
         assert_eq!(target("b.mp4"), film(FilmKind::Mp4, "b.mp4"));
+        assert_eq!(target("b.webm"), film(FilmKind::WebM, "b.webm"));
+        assert_eq!(target("b.MOV"), film(FilmKind::Mov, "b.MOV"));
         assert_eq!(target("b.html"), film(FilmKind::Html, "b.html"));
         assert_eq!(target("b.json"), film(FilmKind::Lottie, "b.json"));
         let moving = target("b.svg").map(ExportTarget::preferring_film);

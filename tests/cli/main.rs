@@ -6,6 +6,7 @@
 mod cli_fixture;
 mod output_files;
 mod pair_tables;
+mod videos;
 
 use std::fs;
 

@@ -3,10 +3,8 @@
 
 use std::fs;
 use std::io::BufReader;
-use std::path::Path;
-use std::process::Command;
 
-use crate::cli_fixture::{CliFixture, read_image, stderr};
+use crate::cli_fixture::{CliFixture, read_image};
 
 #[test]
 fn an_image_is_written_as_png_or_svg() {
@@ -131,46 +129,6 @@ fn an_apng_has_its_frames() {
     let control = reader.info().animation_control().expect("animated");
     assert_eq!((control.num_frames, control.num_plays), (6, 0));
     assert_eq!(reader.info().size(), (40, 30));
-}
-
-/// Width, height and number of frames of a film, as `ffprobe` prints them; `None` if `ffprobe` is
-/// not installed.
-fn probe(path: &Path) -> Option<String> {
-    let output = Command::new("ffprobe")
-        .args("-v error -count_frames -select_streams v:0".split(' '))
-        .args("-show_entries stream=width,height,nb_read_frames -of csv=p=0".split(' '))
-        .arg(path)
-        .output()
-        .ok()?;
-    Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
-}
-
-#[test]
-#[expect(clippy::print_stderr, reason = "a skipped test is reported")]
-fn an_mp4_has_even_sides_and_all_frames() {
-    let cli = CliFixture::new();
-    if Command::new("ffmpeg").arg("-version").output().is_err() {
-        eprintln!("NOT TESTED: writing MP4, because ffmpeg is not on the path");
-        return;
-    }
-    cli.succeeds("render a.obj b.obj --frames 6 --play once --size 41x29 --out x.mp4");
-    assert_eq!(probe(&cli.path("x.mp4")).as_deref(), Some("42,30,6"));
-    assert_eq!(cli.file_names(".").len(), 5, "no temporary file is left");
-    let transparent = "render a.obj b.obj --frames 2 --ground transparent --out x.mp4";
-    cli.fails(2, transparent, "transparent");
-}
-
-#[test]
-fn writing_an_mp4_without_ffmpeg_names_ffmpeg() {
-    let cli = CliFixture::new();
-    let mut command = cli.command("render a.obj b.obj --frames 2 --size 8x8 --out x.mp4");
-    let output = command
-        .env("PATH", "")
-        .output()
-        .expect("the program starts");
-    assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("ffmpeg"), "{}", stderr(&output));
-    assert_eq!(cli.file_names(".").len(), 4, "nothing is left");
 }
 
 #[test]

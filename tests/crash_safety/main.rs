@@ -43,8 +43,9 @@ fn fake_ffmpeg(cli: &CliFixture, script: &str) {
         .stdin(Stdio::piped())
         .spawn()
         .expect("a shell");
-    // The last argument of ffmpeg is the output file with the prefix `file:`.
-    let text = format!("#!/bin/sh\nfor out; do :; done\nout=${{out#file:}}\n{script}\n");
+    // The film, which ffmpeg encodes or decodes, is the argument with the prefix `file:`.
+    let find = "for word; do case $word in file:*) out=${word#file:};; esac; done";
+    let text = format!("#!/bin/sh\n{find}\n{script}\n");
     let mut stdin = writer.stdin.take().expect("a pipe");
     stdin.write_all(text.as_bytes()).expect("written");
     drop(stdin);

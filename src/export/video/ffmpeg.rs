@@ -11,6 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::super::size::PixelSize;
+use super::encoder::VideoEncoder;
 use crate::work::progress::Progress;
 
 /// Interval between two checks whether ffmpeg has ended or the export is cancelled (resource limit:
@@ -20,10 +21,12 @@ const POLL_INTERVAL: Duration = Duration::from_millis(50);
 /// Message of the C library for ENOSPC; ffmpeg prints it untranslated.
 const DISK_FULL: &str = "No space left on device";
 
-/// Exit status and messages of a finished ffmpeg.
+/// Exit status, messages and output of a finished ffmpeg.
 pub(super) struct FfmpegOutcome {
     pub status: ExitStatus,
     pub messages: FfmpegMessages,
+    /// Number of frames that ffmpeg listed on its standard output.
+    pub frames: usize,
 }
 
 /// Messages of ffmpeg on its standard error.
@@ -45,25 +48,29 @@ pub(super) fn is_available() -> bool {
 }
 
 /// Returns the command that encodes raw BT.709 YUV frames from standard input.
-pub(super) fn encode_command(size: PixelSize, fps: f64, output: &Path) -> Command {
+pub(super) fn encode_command(
+    encoder: VideoEncoder,
+    size: PixelSize,
+    fps: f64,
+    output: &Path,
+) -> Command {
+    let (pixels, options) = (encoder.pixels.ffmpeg_name(), encoder.options);
     // The colours are stated for input and output alike, so that ffmpeg does not convert them.
     let colours = "-color_range tv -colorspace bt709 -color_primaries bt709 -color_trc bt709";
-    let input = format!("-f rawvideo -pix_fmt yuv420p -s {size} -r {fps} {colours} -i -");
-    // `-y` overwrites the temporary file, which already exists. The fast preset suffices for flat
-    // drawings and makes files no larger; encoders without presets ignore it.
-    let speed = "-preset veryfast";
-    let line =
-        format!("-y {input} -an -pix_fmt yuv420p {colours} {speed} -movflags +faststart -f mp4");
+    let input = format!("-f rawvideo -pix_fmt {pixels} -s {size} -r {fps} {colours} -i -");
+    // `-y` overwrites the temporary file, which already exists.
+    let line = format!("-y {input} -an -pix_fmt {pixels} {colours} {options}");
     let mut command = quiet();
     command.args(line.split_whitespace()).arg(file_url(output));
     command
 }
 
-/// Returns the command that decodes every frame of a file and discards the result.
+/// Returns the command that decodes every frame of a file and lists the frames, one on each line,
+/// on standard output.
 pub(super) fn decode_command(file: &Path) -> Command {
     let mut command = quiet();
     command.args(["-xerror", "-i"]).arg(file_url(file));
-    command.args(["-f", "null", "-"]);
+    command.args(["-map", "0:v:0", "-f", "framecrc", "-"]);
     command
 }
 
@@ -79,12 +86,13 @@ pub(super) fn run(
 ) -> io::Result<FfmpegOutcome> {
     let mut child = command
         .stdin(Stdio::piped())
-        .stdout(Stdio::null())
+        .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()?;
-    let (stdin, stderr) = (child.stdin.take(), child.stderr.take());
-    // Messages are read while frames are fed, so that neither process waits for a full pipe.
+    let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
+    // Output is read while frames are fed, so that neither process waits for a full pipe.
     let words = thread::spawn(|| stderr.map(collect_messages).unwrap_or_default());
+    let frames = thread::spawn(|| stdout.map(count_frames).unwrap_or_default());
     let status = thread::scope(|scope| {
         // Cancellation is watched on another thread, because feeding blocks while ffmpeg takes no
         // input.
@@ -93,14 +101,19 @@ pub(super) fn run(
         let panicked = |_| Err(io::Error::other("the thread that watches ffmpeg failed"));
         watcher.join().unwrap_or_else(panicked)
     })?;
+    // After a cancellation, the output is not needed. Waiting for it could block, because a child
+    // process of ffmpeg may still hold its stderr open.
+    let (messages, frames) = match progress.is_cancelled() {
+        true => Default::default(),
+        false => (
+            words.join().unwrap_or_default(),
+            frames.join().unwrap_or_default(),
+        ),
+    };
     Ok(FfmpegOutcome {
         status,
-        messages: match progress.is_cancelled() {
-            // After a cancellation, the messages are not needed. Waiting for them could block,
-            // because a child process of ffmpeg may still hold its stderr open.
-            true => FfmpegMessages::default(),
-            false => words.join().unwrap_or_default(),
-        },
+        messages,
+        frames,
     })
 }
 
@@ -133,6 +146,14 @@ fn file_url(path: &Path) -> OsString {
     let mut url = OsString::from("file:");
     url.push(path);
     url
+}
+
+/// Counts the frames that ffmpeg lists: the lines that are no comments.
+fn count_frames(stdout: impl Read) -> usize {
+    let lines = BufReader::new(stdout).split(b'\n').map_while(Result::ok);
+    lines
+        .filter(|line| !line.is_empty() && !line.starts_with(b"#"))
+        .count()
 }
 
 /// Reads all messages to the end, so that ffmpeg never blocks on its output. Control characters are
