@@ -65,6 +65,12 @@ impl FilmKind {
         matches!(self, Self::Mp4 | Self::WebM | Self::Mov)
     }
 
+    /// Returns whether the file contains outlines instead of pixels.
+    #[must_use]
+    pub fn is_vector(self) -> bool {
+        matches!(self, Self::Svg | Self::Html | Self::Lottie)
+    }
+
     /// Returns whether the file can be transparent.
     #[must_use]
     pub fn can_be_transparent(self) -> bool {

@@ -5,11 +5,12 @@ use std::time::{Duration, Instant};
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
 use crate::app::capture::film_exporter::FilmExporter;
-use crate::app::capture::film_request::{FilmCost, FilmExportError, FilmRequest};
+use crate::app::capture::film_request::{FilmExportError, FilmRequest};
 use crate::app::input::preferences::{FilmExportOptions, FilmFileFormat, Preferences};
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::output_files::{CaptureFolder, ScratchFolder};
 use crate::app::session::state::Session;
+use crate::export::FilmCost;
 
 /// Time without changes of the project or the export settings before an estimate starts, so that a
 /// dragged slider triggers none (heuristic).

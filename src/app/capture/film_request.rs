@@ -15,9 +15,8 @@ use crate::app::output_files::{
 use crate::app::session::state::Session;
 use crate::colour::Rgb;
 use crate::export::{
-    Camera, Captions, ExportError, ExportTarget, ExportTargetError, FilmSpec, FilmSpecError,
-    MethodRow, PixelSize, PixelSizeError, StillKind, comparison_sheet, even_times, write_film,
-    write_still,
+    Camera, Captions, ExportError, ExportTarget, ExportTargetError, FilmCost, FilmSpec, MethodRow,
+    PixelSize, PixelSizeError, StillKind, comparison_sheet, even_times, write_film, write_still,
 };
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::settings::Choice;
@@ -33,9 +32,6 @@ pub enum FilmExportError {
     /// The timing or the size gives no film.
     #[error(transparent)]
     Film(#[from] FilmFramingError),
-    /// The film lacks the frames that the estimate would export.
-    #[error(transparent)]
-    Section(#[from] FilmSpecError),
     /// The output file could not be created.
     #[error(transparent)]
     File(#[from] CreateFileError),
@@ -74,9 +70,6 @@ impl From<ExportError> for FilmExportError {
 /// Number of in-betweens per method on a comparison sheet (heuristic).
 const SHEET_COLUMNS: usize = 7;
 
-/// Number of film frames exported to estimate the duration and size of an export (heuristic).
-const TRIAL_FRAMES: usize = 12;
-
 /// Longer side of the preview image, which shows the film frame being exported, in pixels
 /// (heuristic).
 const PREVIEW_PX: f64 = 240.0;
@@ -97,15 +90,6 @@ impl FilmPreview {
             .unwrap_or_else(PoisonError::into_inner)
             .clone()
     }
-}
-
-/// Estimated cost of an export.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilmCost {
-    /// Duration of the export in seconds.
-    pub secs: f64,
-    /// Size of all exported files in bytes.
-    pub bytes: f64,
 }
 
 /// A film or comparison sheet to export.
@@ -186,41 +170,21 @@ impl FilmRequest {
         }
     }
 
-    /// Estimates the cost of the export: exports one film frame, then [`TRIAL_FRAMES`] film frames,
-    /// and extrapolates to the whole film.
+    /// Estimates the cost of the export.
     ///
     /// # Errors
-    /// The settings give no film, or the exported frames cannot be written.
+    /// The settings give no film, or the frames that the estimate exports cannot be written.
     pub fn estimate_cost(self, progress: &dyn Progress) -> Result<FilmCost, FilmExportError> {
         let folder = self.scratch.create_temp_dir()?;
         let (camera, film) = self.camera_and_film()?;
-        let first = typical_start(film.times());
-        let part =
-            |frames: usize| film.frame_range(first..(first + frames).min(film.times().len()));
-        let cost = |film: &FilmSpec, name: &str| -> Result<FilmCost, FilmExportError> {
-            let path = self.path_in(folder.path(), name)?;
-            let started = Instant::now();
-            write_film(
-                &camera,
-                film,
-                &ExportTarget::of_path(&path)?.preferring_film(),
-                progress,
-            )?;
-            Ok(FilmCost {
-                secs: started.elapsed().as_secs_f64(),
-                bytes: size_on_disk(&path)? as f64,
-            })
-        };
-        let (one, some) = (cost(&part(1)?, "one")?, cost(&part(TRIAL_FRAMES)?, "some")?);
-        // The cost of the first film frame includes the fixed costs. Each further distinct film
-        // frame is assumed to cost as much as the average trial frame.
-        let ratio =
-            (film.runs().len() - 1) as f64 / (part(TRIAL_FRAMES)?.runs().len().max(2) - 1) as f64;
-        let extrapolate = |one: f64, some: f64| one + (some - one).max(0.0) * ratio;
-        Ok(FilmCost {
-            secs: extrapolate(one.secs, some.secs),
-            bytes: extrapolate(one.bytes, some.bytes),
-        })
+        let kind = self.format.kind();
+        Ok(FilmCost::estimate(
+            &camera,
+            &film,
+            kind,
+            folder.path(),
+            progress,
+        )?)
     }
 
     /// Returns the camera and the film to export. A ping-pong film includes the way back, so that a
@@ -232,7 +196,7 @@ impl FilmRequest {
         let film = film.with_title(&self.project.title);
         let names = self.names.iter().map(String::as_str);
         let captions = Captions::new(stops, names, style.ground);
-        let is_opaque = self.format == FilmFileFormat::OPAQUE;
+        let is_opaque = !self.format.can_be_transparent();
         let camera = Camera {
             sequence: self.sequence.clone(),
             style,
@@ -270,38 +234,6 @@ impl FilmRequest {
         let stem = format!("{}-methods", self.stem);
         Ok(move_to_free_name(&path, &self.folder, &stem)?)
     }
-}
-
-/// Returns the index of the first image of the film that is exported for the estimate.
-///
-/// The estimate exports [`TRIAL_FRAMES`] consecutive images, during which t never pauses. Of all
-/// such sections of the film, this function selects the one whose mean speed is closest to that of
-/// the film without its pauses, because fast sections would not be representative. The index is 0
-/// if there is no such section.
-fn typical_start(times: &[f64]) -> usize {
-    let moves: Vec<f64> = times
-        .windows(2)
-        .map(|two| (two[1] - two[0]).abs())
-        .collect();
-    let moving = moves.iter().filter(|step| **step > 0.0).count();
-    let mean = moves.iter().sum::<f64>() / moving.max(1) as f64;
-    let tried = moves.windows(TRIAL_FRAMES - 1).enumerate();
-    let moving = tried.filter(|(_, steps)| steps.iter().all(|step| *step > 0.0));
-    let deviation = |steps: &[f64]| (steps.iter().sum::<f64>() / steps.len() as f64 - mean).abs();
-    let typical = moving.min_by(|(_, a), (_, b)| deviation(a).total_cmp(&deviation(b)));
-    typical.map_or(0, |(first, _)| first)
-}
-
-/// Size of a file, or of all files in a folder, in bytes.
-fn size_on_disk(path: &Path) -> std::io::Result<u64> {
-    if !path.is_dir() {
-        return Ok(path.metadata()?.len());
-    }
-    let mut all = 0;
-    for entry in path.read_dir()? {
-        all += entry?.metadata()?.len();
-    }
-    Ok(all)
 }
 
 /// Progress receiver that forwards all reports. It also draws the film frame being exported for the
@@ -371,33 +303,5 @@ impl Progress for PreviewingProgress<'_> {
 
     fn is_patient(&self) -> bool {
         self.progress.is_patient()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn trial_frames_move_at_average_speed() {
-        let pause = [0.0; 20];
-        let slow = (1..=20).map(|k| f64::from(k) * 0.001);
-        let even = (1..=50).map(|k| 0.02 + f64::from(k) * 0.01);
-        let times: Vec<f64> = pause.into_iter().chain(slow).chain(even).collect();
-        let first = typical_start(&times);
-        let moves = times[first + TRIAL_FRAMES - 1] - times[first];
-        let mean = (times[times.len() - 1] - times[0]) / 70.0;
-        assert!(
-            (moves / (TRIAL_FRAMES - 1) as f64 - mean).abs() < 0.5 * mean,
-            "{first}"
-        );
-        assert_eq!(
-            [
-                typical_start(&pause),
-                typical_start(&[]),
-                typical_start(&[0.0, 1.0])
-            ],
-            [0; 3]
-        );
     }
 }

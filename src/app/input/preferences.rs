@@ -170,8 +170,26 @@ pub enum FilmFileFormat {
 }
 
 impl FilmFileFormat {
-    /// The file type without transparency; films of this type always get the background colour.
-    pub const OPAQUE: Self = Self::Film(FilmKind::Mp4);
+    /// Kind of the animated file; `None` for PNG images.
+    #[must_use]
+    pub fn kind(self) -> Option<FilmKind> {
+        match self {
+            Self::Film(kind) => Some(kind),
+            Self::Pngs => None,
+        }
+    }
+
+    /// Whether films of this type can be transparent. Others always get the background colour.
+    #[must_use]
+    pub fn can_be_transparent(self) -> bool {
+        self.kind().is_none_or(FilmKind::can_be_transparent)
+    }
+
+    /// Whether films of this type can be exported on this machine: videos need ffmpeg.
+    #[must_use]
+    pub fn is_available(self) -> bool {
+        !self.kind().is_some_and(FilmKind::is_video) || has_ffmpeg()
+    }
 }
 
 impl Preferences {

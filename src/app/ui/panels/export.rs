@@ -106,20 +106,34 @@ const GIF: FilmFileFormat = FilmFileFormat::Film(FilmKind::Gif);
 fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
     let before = draft.format(content(state));
     let mut format = before;
-    let is_available = |format: &FilmFileFormat| *format != FilmFileFormat::OPAQUE || has_ffmpeg();
-    // The file types are in two rows, because their labels would overlap in one.
-    let (vector, pixels): (Vec<_>, Vec<_>) = formats().into_iter().partition(|(format, ..)| {
-        let outlines = [FilmKind::Svg, FilmKind::Html, FilmKind::Lottie];
-        outlines.map(FilmFileFormat::Film).contains(format)
-    });
-    let tip = "File type of the film.";
-    row(ui, "File type", tip, |ui| {
-        segmented_control_where(ui, &mut format, &pixels, is_available)
-    });
-    let tip = "Vector animations, which stay sharp at any size.";
-    row(ui, "Vector", tip, |ui| {
-        segmented_control_where(ui, &mut format, &vector, is_available)
-    });
+    // The file types are in three rows, because their labels would overlap in one.
+    let is_of = |belongs: fn(FilmKind) -> bool| {
+        let mut formats = formats();
+        formats.retain(|(format, ..)| format.kind().is_some_and(belongs));
+        formats
+    };
+    let videos = is_of(FilmKind::is_video);
+    let vector = is_of(FilmKind::is_vector);
+    let mut pixels = formats();
+    pixels.retain(|format| !videos.contains(format) && !vector.contains(format));
+    let rows = [
+        ("File type", "Images, animated or numbered.", pixels),
+        (
+            "Video",
+            "Videos, which need ffmpeg on this machine.",
+            videos,
+        ),
+        (
+            "Vector",
+            "Vector animations, which stay sharp at any size.",
+            vector,
+        ),
+    ];
+    for (label, tip, formats) in &rows {
+        row(ui, label, tip, |ui| {
+            segmented_control_where(ui, &mut format, formats, |format| format.is_available())
+        });
+    }
     if format != before {
         draft.record_format = Some(format);
     }
@@ -141,7 +155,7 @@ fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
         let is_available = |fps: &u32| !is_gif || *fps <= MAX_GIF_FPS;
         segmented_control_where(ui, &mut draft.film.fps, &rates, is_available)
     });
-    let is_opaque = format == FilmFileFormat::OPAQUE;
+    let is_opaque = !format.can_be_transparent();
     let mut is_transparent = draft.film.is_transparent && !is_opaque;
     row(ui, "Background", "Background of the film.", |ui| {
         segmented_control_where(ui, &mut is_transparent, &BACKGROUNDS, |transparent| {
