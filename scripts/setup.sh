@@ -32,6 +32,29 @@ require_rust() {
     done
 }
 
+# find_players: installs the players of Lottie files with which tests/motion compares, if Python and
+# npm are there. The tests say which player is missing, so a failure is not an error.
+find_players() {
+    players="${XDG_CACHE_HOME:-$HOME/.cache}/morphospace/players"
+    mkdir -p "$players"
+    if [ -z "${MORPHOSPACE_PYTHON:-}" ] && [ ! -x "$players/python/bin/pip" ]; then
+        python3 -m venv "$players/python" >/dev/null 2>&1 || rm -rf "$players/python"
+    fi
+    if [ -z "${MORPHOSPACE_PYTHON:-}" ] && [ -x "$players/python/bin/pip" ]; then
+        timeout 60 "$players/python/bin/pip" install -q pillow rlottie-python thorvg-python >&2 ||
+            say "The Lottie players of PyPI could not be installed."
+        export MORPHOSPACE_PYTHON="$players/python/bin/python"
+    fi
+    script="$players/package/build/player/lottie.min.js"
+    if [ -z "${MORPHOSPACE_LOTTIE:-}" ] && [ ! -r "$script" ] && command -v npm >/dev/null; then
+        (cd "$players" && timeout 60 npm pack --silent lottie-web@5 >/dev/null &&
+            tar -xzf lottie-web-*.tgz) >&2 || say "lottie-web could not be installed."
+    fi
+    if [ -z "${MORPHOSPACE_LOTTIE:-}" ] && [ -r "$script" ]; then
+        export MORPHOSPACE_LOTTIE="$script"
+    fi
+}
+
 # require_packages PACKAGE...: checks for Debian packages and installs missing ones if permitted.
 require_packages() {
     [ "$(uname -s)" = Linux ] || return 0

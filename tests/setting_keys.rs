@@ -76,7 +76,7 @@ fn keys_match_those_in_existing_files() {
     check_choices::<VertexPath>("intrinsic straight");
     check_choices::<FeatureTravel>("auto straight whole");
     check_choices::<WarpKind>("arap lattice lines none paths scattered");
-    check_choices::<FilmKind>("apng gif html json mp4 svg");
+    check_choices::<FilmKind>("apng gif html json mov mp4 svg webm");
     check_choices::<Aspect>("16:9 1:1 4:3 9:16 own");
     check_choices::<LayoutPreset>("deck page post story");
     check_choices::<StillKind>("dxf png svg");

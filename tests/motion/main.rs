@@ -1,16 +1,20 @@
-//! Compares exported vector animations, played in a browser, with the frames that the program
+//! Compares exported vector animations, shown by their players, with the frames that the program
 //! renders itself. Also checks the size of exported HTML pages.
 //!
 //! Chromium plays the animated SVG, the HTML page and, with the script of lottie-web, the Lottie
-//! file. If a player is missing, the test reports it and does not compare that format. Environment
-//! variables:
+//! file. rlottie and ThorVG play the Lottie file, too. If a player is missing, the test says so and
+//! counts the comparisons that it did not make. Environment variables:
 //!
 //! - `MORPHOSPACE_CHROMIUM`: path of Chromium; by default it is searched on `PATH`
 //! - `MORPHOSPACE_LOTTIE`: path of lottie-web's script, `lottie.js`
-//! - `MORPHOSPACE_MOTION`: names of the gallery projects to compare, or `all`
+//! - `MORPHOSPACE_PYTHON`: Python with rlottie-python, thorvg-python and pillow; by default
+//!   `python3` on `PATH`
+//! - `MORPHOSPACE_MOTION`: names of the films to compare (gallery projects, or those of
+//!   [`DRAWN_FILMS`]), or `all`
 //! - `MORPHOSPACE_MOTION_OUT`: folder in which the exported files and the images are saved
 
 mod browser;
+mod lottie_players;
 
 use std::io::Write;
 use std::path::Path;
@@ -23,6 +27,7 @@ use morphospace::transition::Transition;
 use morphospace::work::progress::Silent;
 
 use browser::{AnimationFile, AnimationPlayers, VectorFormat};
+use lottie_players::LottiePlayer;
 
 /// Number of frames of each film that are compared.
 const COMPARED_FRAMES: usize = 25;
@@ -40,9 +45,16 @@ const BARS_PX: u32 = 3840;
 /// checked for this length.
 const DEFAULT_PX: u32 = 960;
 
-/// Gallery projects that are compared by default: a coloured drawing, parts that appear, a truss, a
-/// distance field, and a hole that closes.
-const DEFAULT_PROJECTS: &str = "day-to-night words bracket-to-davit letters spectacles";
+/// Films that are compared by default: a coloured drawing, parts that appear, a truss, a distance
+/// field, a hole that closes, holes that open, and gradients, opacity and outlines that change.
+const DEFAULT_FILMS: &str =
+    "day-to-night words bracket-to-davit letters spectacles ring-to-window sun-to-lamp";
+
+/// Films between drawings of `tests/motion/drawings`: name, source and target.
+const DRAWN_FILMS: [(&str, &str, &str); 2] = [
+    ("ring-to-window", "ring.svg", "window.svg"),
+    ("sun-to-lamp", "sun.svg", "lamp.svg"),
+];
 
 /// Minimum [`overlap`] of a frame in the browser with the program's own (tolerance: antialiasing
 /// differs).
@@ -176,18 +188,62 @@ fn print_uncaptured(line: &str) {
     writeln!(std::io::stderr(), "{line}").expect("standard error");
 }
 
-/// Plays a film in one format; returns a message if a frame differs too much from the program's
-/// own.
+/// Program that shows an exported film.
+#[derive(Clone, Copy, Debug)]
+enum FilmPlayer {
+    /// Chromium, for any format; Lottie with lottie-web.
+    Browser(VectorFormat),
+    /// Another player of Lottie files.
+    Lottie(LottiePlayer),
+}
+
+impl FilmPlayer {
+    fn all() -> impl Iterator<Item = Self> {
+        let others = LottiePlayer::ALL.into_iter().map(Self::Lottie);
+        VectorFormat::ALL
+            .into_iter()
+            .map(Self::Browser)
+            .chain(others)
+    }
+
+    fn format(self) -> VectorFormat {
+        match self {
+            Self::Browser(format) => format,
+            Self::Lottie(_) => VectorFormat::Lottie,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Browser(VectorFormat::Lottie) => "Lottie in lottie-web",
+            Self::Browser(format) => format.name(),
+            Self::Lottie(LottiePlayer::Rlottie) => "Lottie in rlottie",
+            Self::Lottie(LottiePlayer::Thorvg) => "Lottie in ThorVG",
+        }
+    }
+}
+
+/// Result of a comparison in one player.
+enum Comparison {
+    Same,
+    /// A frame differs too much from the program's own.
+    Different(String),
+    /// The player is missing.
+    NotCompared,
+}
+
+/// Plays a film and compares it with the program's own frames.
 fn play_and_compare(
     shot: &ComparedFilm,
-    kind: VectorFormat,
-    entry: &gallery::GalleryEntry,
-    players: &AnimationPlayers,
-) -> Option<String> {
-    let text = shot.text(kind, &entry.title);
+    player: FilmPlayer,
+    (name, title): (&str, &str),
+    browsers: &AnimationPlayers,
+) -> Comparison {
+    let kind = player.format();
+    let text = shot.text(kind, title);
     let folder = tempfile::tempdir().expect("a folder");
     let save_folder = std::env::var_os("MORPHOSPACE_MOTION_OUT")
-        .map(|out| Path::new(&out).join(&entry.name).join(kind.name()));
+        .map(|out| Path::new(&out).join(name).join(player.name()));
     if let Some(folder) = &save_folder {
         std::fs::create_dir_all(folder).expect("a folder");
         let file = folder.join(format!("film.{}", kind.ending()));
@@ -199,21 +255,33 @@ fn play_and_compare(
         fps: shot.film.fps(),
         size: shot.camera.view.size(),
     };
-    let label = format!(
-        "{} as {}: {:.0} kB",
-        entry.name,
-        kind.name(),
-        text.len() as f64 / 1e3
-    );
-    let play = |frames: &[(f64, f64)]| players.play(&file, frames, folder.path());
+    let (player_name, size) = (player.name(), text.len() as f64 / 1e3);
+    let label = format!("{name} as {player_name}: {size:.0} kB");
+    let play = |frames: &[(f64, f64)]| match player {
+        FilmPlayer::Browser(_) => browsers.play(&file, frames, folder.path()),
+        FilmPlayer::Lottie(player) => player.play(&file, frames, folder.path()),
+    };
     let Some((overlap, t, colour)) = shot.compare(play, save_folder.as_deref()) else {
-        print_uncaptured(&format!("{label}, NOT COMPARED: {}", players.missing(kind)));
-        return None;
+        let reason = match player {
+            FilmPlayer::Browser(kind) => browsers.missing(kind).to_owned(),
+            FilmPlayer::Lottie(player) => {
+                format!(
+                    "no Python package {} (MORPHOSPACE_PYTHON)",
+                    player.package()
+                )
+            }
+        };
+        print_uncaptured(&format!("{label}, NOT COMPARED: {reason}"));
+        return Comparison::NotCompared;
     };
     let line =
         format!("{label}, minimum IoU {overlap:.4} at t = {t:.3}, colours off by {colour:.2}");
     print_uncaptured(&line);
-    (overlap < MIN_OVERLAP || colour > MAX_COLOUR_DIFFERENCE).then_some(line)
+    if overlap < MIN_OVERLAP || colour > MAX_COLOUR_DIFFERENCE {
+        Comparison::Different(line)
+    } else {
+        Comparison::Same
+    }
 }
 
 /// Length of the longer side of the compared frames of a transition, in pixels.
@@ -223,38 +291,57 @@ fn side_px(transition: &Transition) -> u32 {
     if has_bars { BARS_PX } else { SIDE_PX }
 }
 
-#[test]
-fn browsers_show_the_same_as_our_frames() {
-    let players = AnimationPlayers::find();
-    let names = std::env::var("MORPHOSPACE_MOTION").unwrap_or_else(|_| DEFAULT_PROJECTS.to_owned());
-    let mut failed = Vec::new();
-    for entry in gallery::list().expect("the list") {
-        if names != "all" && !names.split_whitespace().any(|name| name == entry.name) {
-            continue;
-        }
+/// Films to compare, each with its name and its title: those named in `MORPHOSPACE_MOTION`, or the
+/// default ones.
+fn compared_films() -> Vec<(String, String, LoadedProject)> {
+    let names = std::env::var("MORPHOSPACE_MOTION").unwrap_or_else(|_| DEFAULT_FILMS.to_owned());
+    let is_chosen = |name: &str| names == "all" || names.split_whitespace().any(|n| n == name);
+    let gallery = gallery::list().expect("the list").into_iter();
+    let gallery = gallery.filter(|entry| is_chosen(&entry.name)).map(|entry| {
         let loaded = gallery::load(&entry.name).expect("a project");
-        match ComparedFilm::new(&loaded, side_px) {
-            Some(shot) => {
-                let at_default_size = ComparedFilm::new(&loaded, |_| DEFAULT_PX).expect("outlines");
-                let page =
-                    at_default_size.text(VectorFormat::Page, &entry.title).len() as f64 / 1e3;
-                print_uncaptured(&format!(
-                    "{}: an HTML page of {page:.0} kB at {DEFAULT_PX} px",
-                    entry.name
-                ));
-                if page >= MAX_PAGE_KB {
-                    failed.push(format!("{}: a page of {page:.0} kB", entry.name));
-                }
-                let kinds = VectorFormat::ALL.into_iter();
-                failed.extend(
-                    kinds.filter_map(|kind| play_and_compare(&shot, kind, &entry, &players)),
-                );
+        (entry.name, entry.title, loaded)
+    });
+    let drawn = DRAWN_FILMS.into_iter().filter(|film| is_chosen(film.0));
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/motion/drawings");
+    let drawn = drawn.map(|(name, source, target)| {
+        let pair = LoadedProject::open_pair(&folder.join(source), &folder.join(target));
+        (name.to_owned(), name.to_owned(), pair.expect("drawings"))
+    });
+    gallery.chain(drawn).collect()
+}
+
+/// Returns a message if the HTML page of a film is too large.
+fn check_page_size(name: &str, title: &str, loaded: &LoadedProject) -> Option<String> {
+    let at_default_size = ComparedFilm::new(loaded, |_| DEFAULT_PX).expect("outlines");
+    let page = at_default_size.text(VectorFormat::Page, title).len() as f64 / 1e3;
+    let line = format!("{name}: an HTML page of {page:.0} kB at {DEFAULT_PX} px");
+    print_uncaptured(&line);
+    (page >= MAX_PAGE_KB).then_some(line)
+}
+
+#[test]
+fn players_show_the_same_as_our_frames() {
+    let browsers = AnimationPlayers::find();
+    let (mut failed, mut not_compared, mut count) = (Vec::new(), 0, 0);
+    for (name, title, loaded) in compared_films() {
+        let Some(shot) = ComparedFilm::new(&loaded, side_px) else {
+            print_uncaptured(&format!("{name}: skipped, bitmap images have no outlines"));
+            continue;
+        };
+        failed.extend(check_page_size(&name, &title, &loaded));
+        for player in FilmPlayer::all() {
+            count += 1;
+            match play_and_compare(&shot, player, (&name, &title), &browsers) {
+                Comparison::Same => {}
+                Comparison::Different(line) => failed.push(line),
+                Comparison::NotCompared => not_compared += 1,
             }
-            None => print_uncaptured(&format!(
-                "{}: skipped, bitmap images have no outlines",
-                entry.name
-            )),
         }
     }
+    assert!(count > 0, "no film was chosen");
+    print_uncaptured(&format!(
+        "{} of {count} comparisons made, {not_compared} NOT MADE because a player is missing",
+        count - not_compared
+    ));
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }

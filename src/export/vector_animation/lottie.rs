@@ -6,7 +6,9 @@
 //! the format: repeating gradients are drawn once, and radial gradients that are not uniformly
 //! scaled are drawn circular.
 //!
-//! Plays in lottie-web, rlottie and ThorVG, with the same pictures (`tests/motion`).
+//! Plays in lottie-web, rlottie and ThorVG, with the same pictures (`tests/motion`). rlottie shows
+//! the precomposition at whole frames only, rounded down: in films that play once, up to one frame
+//! early, and in films that play back and forth, half a frame.
 
 mod format;
 #[cfg(test)]
@@ -41,13 +43,13 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> String {
     let timeline = &animation.timeline;
     let frames = timeline.frames();
     // The largest remapped time is the length of the precomposition. If it equals the number of
-    // frames of the film, players take it for the end and show an earlier moment. The
-    // precomposition is then made one frame longer; this happens only for a film of one frame.
-    let length = if timeline.pass_frames == frames {
-        frames + 1
-    } else {
-        timeline.pass_frames
-    } as f64;
+    // frames of the film, players take it for the end and show an earlier moment. Shorter
+    // precompositions would be less precise in rlottie. Beyond the end of a film of one frame there
+    // is nothing to show, so its precomposition may be longer.
+    let length = match frames {
+        1 => 2.0,
+        frames => (frames - 1) as f64,
+    };
     let [from, to] = animation.time_range();
     let at = |t: f64| length * (t - from) / (to - from).max(f64::MIN_POSITIVE);
     let remap = time_remap(timeline, |t| at(t) / timeline.fps);
@@ -84,21 +86,45 @@ fn scenes(animation: &VectorAnimation, length: f64, at: impl Fn(f64) -> f64) -> 
     times.sort_by(f64::total_cmp);
     times.dedup();
     let stations: Vec<(f64, f64)> = times.into_iter().map(|t| (at(t), t)).collect();
-    let layers = layers(animation, &stations);
-    let last = layers.len().saturating_sub(1);
+    let mut scenes = layers(animation, &stations);
+    // Scenes (consecutive animation pieces with the same shapes) that are too short for the precision
+    // of times are never visible.
+    let time = |frames: f64| round_number(frames, 3);
+    scenes.retain(|scene| time(scene.from) != time(scene.to));
+    let last = scenes.len().saturating_sub(1);
     let scene = |(k, scene): (usize, &SceneLayer)| {
-        // The first scene (consecutive animation pieces with the same shapes) begins at 0, and the
-        // last one ends after the end of the film, so that rounding in a player never hides them.
-        let from = if k == 0 { 0.0 } else { scene.from };
-        let to = if k == last { length + 1.0 } else { scene.to };
+        let begin = (k > 0).then(|| time(scene.from));
+        let end = (k < last).then(|| time(scene.to));
+        // The first scene begins at 0, and the last one ends after the end of the film, so that
+        // rounding in a player never hides them.
+        let from = begin.clone().unwrap_or(0.into());
+        let to = end.clone().unwrap_or_else(|| time(length + 1.0));
         // Lottie lists the topmost shape first.
         let topmost_first = scene.shapes.iter().rev();
         let shapes = topmost_first.map(|poses| shape(scene, poses)).collect();
-        let period = [from, to].map(|time| round_number(time, 3));
         let content = LayerContent::Shapes { shapes };
-        layer(format!("scene {}", k + 1), k + 1, content, period)
+        let mut layer = layer(format!("scene {}", k + 1), k + 1, content, [from, to]);
+        layer.ks.o = visibility(begin, end);
+        layer
     };
-    layers.iter().enumerate().map(scene).collect()
+    scenes.iter().enumerate().map(scene).collect()
+}
+
+/// Returns the opacity of a layer that is visible from `begin` until shortly before `end`. Without
+/// one of them, there is no limit.
+///
+/// The period of the layer alone would not suffice: rlottie rounds it to whole frames and includes
+/// the last one, in which the layer would then be drawn in addition to the next.
+fn visibility(begin: Option<Number>, end: Option<Number>) -> LottieProperty {
+    let percent = |percent: u8| LottieValue::Number(percent.into());
+    let (is_hidden_first, is_always) = (begin.is_some(), begin.is_none() && end.is_none());
+    if is_always {
+        return LottieProperty::still(percent(100));
+    }
+    let first = is_hidden_first.then(|| LottieKeyframe::hold(0.into(), percent(0)));
+    let shown = LottieKeyframe::hold(begin.unwrap_or(0.into()), percent(100));
+    let hidden = end.map(|end| LottieKeyframe::hold(end, percent(0)));
+    LottieProperty::moving(first.into_iter().chain([shown]).chain(hidden).collect())
 }
 
 /// Returns the layers of the animation: the film with its time remapped, and below it the

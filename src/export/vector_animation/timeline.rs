@@ -18,9 +18,6 @@ pub(super) struct FilmTimeline {
     pub fps: f64,
     /// Whether the film loops.
     pub repeats: bool,
-    /// Number of frame intervals of one pass, from the first t to the last. The way back of a
-    /// ping-pong film does not count.
-    pub pass_frames: usize,
 }
 
 impl FilmTimeline {
@@ -35,7 +32,6 @@ impl FilmTimeline {
             times,
             fps: film.fps(),
             repeats: film.repeats(),
-            pass_frames: if comes_back { n / 2 } else { (n - 1).max(1) },
         }
     }
 
@@ -196,10 +192,10 @@ mod tests {
     fn the_way_back_of_a_ping_pong_film_is_recognised() {
         let once = FilmSpec::evenly(0.0, 1.0, 5, 10.0).expect("a film");
         let timeline = FilmTimeline::of(&once);
-        assert_eq!((timeline.pass_frames, timeline.frames()), (4, 5));
+        assert_eq!(timeline.frames(), 5);
         assert_eq!(timeline.times[5], 1.0);
         let back = FilmTimeline::of(&once.with_play_mode(PlayMode::PingPong));
-        assert_eq!((back.pass_frames, back.frames()), (4, 8));
+        assert_eq!(back.frames(), 8);
         assert_eq!(back.times[8], 0.0);
     }
 }

@@ -190,13 +190,17 @@ impl LottieProperty {
     }
 }
 
-/// A keyframe. The handles of the last keyframe are missing.
+/// A keyframe. The last keyframe, and keyframes whose value lasts until the next one, have no
+/// handles.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct LottieKeyframe {
     #[serde(skip_serializing_if = "Option::is_none")]
     i: Option<LottieHandle>,
     #[serde(skip_serializing_if = "Option::is_none")]
     o: Option<LottieHandle>,
+    /// 1 if the value lasts until the next keyframe, without interpolation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    h: Option<u8>,
     t: Number,
     s: LottieValue,
 }
@@ -213,8 +217,17 @@ impl LottieKeyframe {
         Self {
             i: into,
             o: out,
+            h: None,
             t: time,
             s: value.listed(),
+        }
+    }
+
+    /// Returns a keyframe whose value lasts until the next keyframe.
+    pub(super) fn hold(time: Number, value: LottieValue) -> Self {
+        Self {
+            h: Some(1),
+            ..Self::new(time, value, None)
         }
     }
 }
