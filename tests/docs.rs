@@ -148,7 +148,12 @@ fn every_command_line_runs() {
             let folder = tempfile::tempdir().expect("a folder");
             fill_with_examples(folder.path());
             for arguments in command_lines(block, &subcommands) {
-                if arguments.iter().any(|word| word.ends_with(".mp4")) && !has_ffmpeg() {
+                let is_video = |word: &String| {
+                    [".mp4", ".webm", ".mov"]
+                        .iter()
+                        .any(|end| word.ends_with(end))
+                };
+                if arguments.iter().any(is_video) && !has_ffmpeg() {
                     println!("not run, since ffmpeg is not installed: {arguments:?}");
                     continue;
                 }

@@ -67,12 +67,19 @@ const MAX_COLOUR_DIFFERENCE: f64 = 4.0;
 /// Maximum size of the file of an HTML page whose longer side is [`DEFAULT_PX`], in kB.
 const MAX_PAGE_KB: f64 = 300.0;
 
+/// Difference of two opacities (0 to 255) that counts as rounding: rlottie multiplies opacities in
+/// three steps of 8 bits each and shows 254 instead of 255.
+const OPACITY_ROUNDING: f64 = 2.0;
+
 /// Intersection over union of the opaque areas of two images.
 fn overlap(a: &RgbaImage, b: &RgbaImage) -> f64 {
     assert_eq!(a.dimensions(), b.dimensions());
     let [mut both, mut either] = [0.0; 2];
     for (a, b) in a.pixels().zip(b.pixels()) {
-        let [a, b] = [a, b].map(|p| f64::from(p.0[3]));
+        let [a, mut b] = [a, b].map(|p| f64::from(p.0[3]));
+        if (a - b).abs() <= OPACITY_ROUNDING {
+            b = a;
+        }
         both += a.min(b);
         either += a.max(b);
     }
@@ -84,7 +91,11 @@ fn overlap(a: &RgbaImage, b: &RgbaImage) -> f64 {
 fn colour_difference(a: &RgbaImage, b: &RgbaImage) -> f64 {
     let both = a.pixels().zip(b.pixels());
     let both: Vec<_> = both
-        .filter(|(a, b)| a.0[3] == 255 && b.0[3] == 255)
+        .filter(|(a, b)| {
+            [a, b]
+                .iter()
+                .all(|p| f64::from(p.0[3]) >= 255.0 - OPACITY_ROUNDING)
+        })
         .collect();
     let differences = both.iter().map(|(a, b)| {
         let channels = (0..3).map(|k| f64::from(a.0[k].abs_diff(b.0[k])));
