@@ -56,11 +56,39 @@ pub fn write_gif(
     }
     // The file is created before anything is drawn, so that an unwritable folder is reported at
     // once.
-    let mut file = AtomicFile::create(path).map_err(ExportError::write(path))?;
+    let file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let choosing = ProgressSpan::new(progress, 0.0, PALETTE_FRACTION);
     let palette = film_palette(camera, &film.runs(), &choosing)?;
+    let drawing = ProgressSpan::new(progress, PALETTE_FRACTION, 1.0);
+    write_with_palette(camera, film, &palette, file, path, &drawing)
+}
+
+/// Writes a section of a film with the palette of the whole film.
+///
+/// # Errors
+/// Same as for [`write_gif`].
+pub(super) fn write_gif_section(
+    camera: &Camera,
+    section: &FilmSpec,
+    palette: &GifPalette,
+    path: &Path,
+    progress: &dyn Progress,
+) -> Result<(), ExportError> {
+    let file = AtomicFile::create(path).map_err(ExportError::write(path))?;
+    write_with_palette(camera, section, palette, file, path, progress)
+}
+
+/// Writes the film to `file`, whose final path is `path`.
+fn write_with_palette(
+    camera: &Camera,
+    film: &FilmSpec,
+    palette: &GifPalette,
+    mut file: AtomicFile,
+    path: &Path,
+    progress: &dyn Progress,
+) -> Result<(), ExportError> {
     let writer = BufWriter::new(file.file_mut());
-    let mut encoder = encoder(writer, camera, film, &palette).map_err(ExportError::encode(path))?;
+    let mut encoder = encoder(writer, camera, film, palette).map_err(ExportError::encode(path))?;
     let mut canvas = camera.ground.map(|_| GifCanvas::default());
     // Pauses, and the first and the last frame of a whole film, are shown long enough to be looked
     // at, so each of their pixels gets the nearest palette colour.
@@ -70,10 +98,10 @@ pub fn write_gif(
     camera.draw_runs(
         &film.runs(),
         DRAWING_STAGE,
-        &ProgressSpan::new(progress, PALETTE_FRACTION, DRAWN_FRACTION),
-        |drawing| Ok(index_image(rasterise(&drawing), &palette)),
+        &ProgressSpan::new(progress, 0.0, DRAWN_FRACTION),
+        |drawing| Ok(index_image(rasterise(&drawing), palette)),
         |run, drawn| {
-            let mut frame = encode_next_frame(&drawn, canvas.as_mut(), is_still(run), &palette);
+            let mut frame = encode_next_frame(&drawn, canvas.as_mut(), is_still(run), palette);
             frame.delay = u16::try_from(film.ticks(run, TICKS_PER_SEC)).unwrap_or(u16::MAX);
             let written = encoder.write_lzw_pre_encoded_frame(&frame);
             written.map_err(ExportError::encode(path))
@@ -110,7 +138,7 @@ fn encoder<W: Write>(
 }
 
 /// Chooses the palette from frames spread evenly over the film.
-fn film_palette(
+pub(super) fn film_palette(
     camera: &Camera,
     runs: &[FrameRun],
     progress: &dyn Progress,
