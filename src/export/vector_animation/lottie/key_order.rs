@@ -106,7 +106,10 @@ fn every_kind_of_shape() -> VectorAnimation {
             PathCommand::Cubic(p(3.0, 9.0), p(0.0, 5.0), p(0.0, 1.0)),
             PathCommand::Close,
         ];
-        let outline = OutlinePath { commands };
+        let outline = OutlinePath {
+            commands,
+            names: Default::default(),
+        };
         let colour = Rgb([x as u8, 20, 200]);
         let paint = Paint {
             colour,
