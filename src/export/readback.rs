@@ -156,7 +156,7 @@ mod tests {
             let reports = reports.0.into_inner().expect("free");
             assert!(reports.is_sorted_by(|a, b| a.1 <= b.1), "{reports:?}");
             let checking = reports.iter().find(|report| report.0 == CHECKING_STAGE);
-            assert_eq!(checking, Some(&(CHECKING_STAGE, DRAWN_FRACTION)));
+            assert!(checking.is_some_and(|report| report.1 >= DRAWN_FRACTION));
         }
     }
 
