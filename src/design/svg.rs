@@ -53,13 +53,13 @@ use super::options::ImportOptions;
 use crate::geometry::{Bounds, DVec2};
 use css::cascade::{StyleCascade, read_sheets};
 use fonts::FontLookup;
-use notes::{LostFeatures, SvgReport, element_label};
+use notes::{LostFeatures, SvgReport};
 use painter::SvgReadOptions;
 use plain::{ElementBoxes, PlainDrawing, PlainSources, plain_drawing, source_element};
 use std::collections::HashMap;
 use std::io::Read;
 use std::sync::Mutex;
-use usvg::roxmltree::{self, Document, Node as Xml, NodeId};
+use usvg::roxmltree::{self, Document, Node as Xml};
 
 /// Maximum number of element ids listed in an error (resource limit: about one line).
 const NAMED_IDS: usize = 8;
@@ -98,18 +98,12 @@ pub(super) fn read(
     } = tree_of(&document, &font_lookup, 0)?;
     lost.extend(embedded);
     let size = painter::page_of(&tree);
-    let source = |id: NodeId| document.get_node(id);
     let read_options = SvgReadOptions {
         tolerance: options.tolerance.max(MIN_TOLERANCE) * size.max_element(),
         // The id of the root element selects the whole drawing.
         element: (top != document.root_element()).then(|| top.id()),
         non_scaling: &plain.non_scaling,
-        name: &|id| source(id).map(names::element_name).unwrap_or_default(),
-        label: &|id| source(id).map(element_label).unwrap_or_default(),
-        path_length: &|id| {
-            let given = source(id)?.attribute("pathLength")?.trim().parse().ok();
-            given.filter(|length: &f64| *length > 0.0 && length.is_finite())
-        },
+        document: &document,
     };
     let mut painted = painter::paint_tree(&tree, &read_options)?;
     if read_options.element.is_none() {

@@ -265,7 +265,7 @@ impl DxfReader {
         let is_decoded = matches!(&*self.code_page, "" | "ANSI_1252" | "ascii" | "UTF-8")
             || std::str::from_utf8(bytes).is_ok()
             || bytes.starts_with(super::BINARY);
-        let code_page = (!is_decoded).then(|| DxfNote::CodePage(self.code_page));
+        let code_page = (!is_decoded).then_some(DxfNote::CodePage(self.code_page));
         let expansion = BlockExpansion::new(&self.blocks, &mut self.layers, self.report);
         let mut drawing = expansion.expand(&self.entities)?;
         if !self.has_multiline_caps {

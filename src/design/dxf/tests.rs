@@ -222,58 +222,61 @@ fn open_lines_are_strokes_and_unsupported_entities_are_reported() {
     );
 }
 
+/// Broken entities with the notes that report them.
+const BROKEN_ENTITIES: [(&str, &str); 12] = [
+    (
+        "0 LINE 8 0 10 x 20 0",
+        "1 LINE left out: a value is not a number from -1e18 to 1e18 (line 58, layer 0)",
+    ),
+    (
+        "0 LINE 8 0 10 nan 20 0",
+        "1 LINE left out: a value is not a number",
+    ),
+    (
+        "0 LINE 8 0 10 1e300 20 0",
+        "1 LINE left out: a value is not a number",
+    ),
+    (
+        "0 SPLINE 8 0 71 3 10 0 20 0",
+        "1 SPLINE left out: it has no knots (line 54, layer 0)",
+    ),
+    (
+        "0 SPLINE 8 0 71 3 40 0 10 0 20 0",
+        "1 SPLINE left out: its degree, knots",
+    ),
+    (
+        "0 SPLINE 8 0 71 3",
+        "1 SPLINE left out: it has neither control points",
+    ),
+    (
+        "0 CIRCLE 8 0 40 0",
+        "1 CIRCLE left out: its radius is not positive",
+    ),
+    (
+        "0 HATCH 8 0 2 SOLID 70 1",
+        "1 HATCH left out: it has no boundary",
+    ),
+    (
+        "0 LWPOLYLINE 8 0 10 3 20 3",
+        "1 LWPOLYLINE left out: it has fewer than two vertices",
+    ),
+    (
+        "0 TEXT 8 0 1 words 40 0",
+        "1 TEXT left out: its text height is not positive",
+    ),
+    (
+        "0 INSERT 8 0 2 gone",
+        "1 INSERT left out: its block is not defined",
+    ),
+    (
+        "0 INSERT 8 0 2 A 70 30000 71 30000",
+        "1 INSERT left out: it makes too many copies",
+    ),
+];
+
 #[test]
 fn broken_entities_are_left_out_and_the_rest_remains() {
-    for (entity, message) in [
-        (
-            "0 LINE 8 0 10 x 20 0",
-            "1 LINE left out: a value is not a number from -1e18 to 1e18 (line 58, layer 0)",
-        ),
-        (
-            "0 LINE 8 0 10 nan 20 0",
-            "1 LINE left out: a value is not a number",
-        ),
-        (
-            "0 LINE 8 0 10 1e300 20 0",
-            "1 LINE left out: a value is not a number",
-        ),
-        (
-            "0 SPLINE 8 0 71 3 10 0 20 0",
-            "1 SPLINE left out: it has no knots (line 54, layer 0)",
-        ),
-        (
-            "0 SPLINE 8 0 71 3 40 0 10 0 20 0",
-            "1 SPLINE left out: its degree, knots",
-        ),
-        (
-            "0 SPLINE 8 0 71 3",
-            "1 SPLINE left out: it has neither control points",
-        ),
-        (
-            "0 CIRCLE 8 0 40 0",
-            "1 CIRCLE left out: its radius is not positive",
-        ),
-        (
-            "0 HATCH 8 0 2 SOLID 70 1",
-            "1 HATCH left out: it has no boundary",
-        ),
-        (
-            "0 LWPOLYLINE 8 0 10 3 20 3",
-            "1 LWPOLYLINE left out: it has fewer than two vertices",
-        ),
-        (
-            "0 TEXT 8 0 1 words 40 0",
-            "1 TEXT left out: its text height is not positive",
-        ),
-        (
-            "0 INSERT 8 0 2 gone",
-            "1 INSERT left out: its block is not defined",
-        ),
-        (
-            "0 INSERT 8 0 2 A 70 30000 71 30000",
-            "1 INSERT left out: it makes too many copies",
-        ),
-    ] {
+    for (entity, message) in BROKEN_ENTITIES {
         let found = found(&format!("{SQUARE} {entity}")).expect(entity);
         assert_near(found.regions.area(), 16.0);
         let words = words(&found);

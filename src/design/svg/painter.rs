@@ -4,7 +4,8 @@
 use super::blending::blend_shapes;
 use super::error::SvgError;
 use super::ink_layers::{WindingRings, clip_rings};
-use super::notes::LostFeatures;
+use super::names::element_name;
+use super::notes::{LostFeatures, element_label};
 use super::opacity_groups::apply_group_opacity;
 use super::path_area::is_filled;
 use super::plain::source_element;
@@ -16,7 +17,7 @@ use crate::colour::{Gradient, Paint};
 use crate::design::flatten::Flattener;
 use crate::geometry::{DAffine2, DVec2, FillRule, Repairs};
 use std::collections::HashSet;
-use usvg::roxmltree::NodeId;
+use usvg::roxmltree::{Document, NodeId};
 use usvg::{BlendMode, Group, ImageKind, Node, PaintOrder, Path, Text, Transform};
 
 /// Settings for reading a drawing.
@@ -27,12 +28,29 @@ pub(super) struct SvgReadOptions<'o> {
     pub element: Option<NodeId>,
     /// Elements whose strokes keep their width when the drawing is scaled.
     pub non_scaling: &'o HashSet<NodeId>,
-    /// Name of an element for the pairing of parts; empty if its author gave it none.
-    pub name: &'o dyn Fn(NodeId) -> String,
-    /// Description of an element for notes.
-    pub label: &'o dyn Fn(NodeId) -> String,
-    /// Length that the author gives to the outline of an element (`pathLength`).
-    pub path_length: &'o dyn Fn(NodeId) -> Option<f64>,
+    /// Source of the drawing.
+    pub document: &'o Document<'o>,
+}
+
+impl SvgReadOptions<'_> {
+    /// Returns the name of an element for the pairing of parts; empty if its author gave it none.
+    fn name(&self, id: NodeId) -> String {
+        let node = self.document.get_node(id);
+        node.map(element_name).unwrap_or_default()
+    }
+
+    /// Returns the description of an element for notes.
+    fn label(&self, id: NodeId) -> String {
+        let node = self.document.get_node(id);
+        node.map(element_label).unwrap_or_default()
+    }
+
+    /// Returns the length that the author gives to the outline of an element (`pathLength`).
+    pub(super) fn path_length(&self, id: NodeId) -> Option<f64> {
+        let given = self.document.get_node(id)?.attribute("pathLength")?;
+        let length: f64 = given.trim().parse().ok()?;
+        (length > 0.0 && length.is_finite()).then_some(length)
+    }
 }
 
 /// Shapes of a drawing, with counts for its import notes.
@@ -79,7 +97,7 @@ pub(super) fn paint_tree(
     painter.group(tree.root(), None, options.element.is_none())?;
     match options.element {
         Some(id) if !painter.is_drawn => {
-            let label = (options.label)(id);
+            let label = options.label(id);
             Err(SvgError::NotDrawn(label.trim_start_matches('#').to_owned()))
         }
         _ => Ok(painter.painted),
@@ -215,7 +233,7 @@ impl SvgPainter<'_> {
         let outer = (self.element, self.group_name.clone());
         if let Some(id) = source {
             self.element = Some(id);
-            let name = (self.options.name)(id);
+            let name = self.options.name(id);
             if !name.is_empty() {
                 self.group_name = name;
             }
@@ -226,7 +244,7 @@ impl SvgPainter<'_> {
     /// Records that a feature of the current element is only approximated.
     pub(super) fn approximate(&mut self, feature: &str, replacement: &'static str) {
         let label = match self.element {
-            Some(id) => (self.options.label)(id),
+            Some(id) => self.options.label(id),
             None => "<svg>".to_owned(),
         };
         self.painted.lost.replace(feature, replacement, &label);

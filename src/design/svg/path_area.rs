@@ -155,7 +155,7 @@ impl SvgPainter<'_> {
         dash: tiny_skia_path::StrokeDash,
     ) -> Option<tiny_skia_path::StrokeDash> {
         let source = source_element(path.id());
-        let given = source.and_then(|id| (self.options.path_length)(id));
+        let given = source.and_then(|id| self.options.path_length(id));
         let (Some(given), Some(stroke)) = (given, path.stroke()) else {
             return Some(dash);
         };

@@ -88,10 +88,11 @@ fn tile_offsets(frame: DAffine2, [x, y, w, h]: [f64; 4], bounds: &Bounds) -> Opt
     ];
     let corners =
         corners.map(|p| (to_tiles.transform_point2(p) - DVec2::new(x, y)) / DVec2::new(w, h));
-    let covered = Bounds::of(corners.into_iter()).filter(|covered| covered.size().is_finite())?;
+    let covered = Bounds::of(corners).filter(|covered| covered.size().is_finite())?;
     let (first, last) = (covered.min.floor(), covered.max.floor());
     let count = last - first + DVec2::ONE;
-    if !(count.x * count.y <= MAX_TILES as f64) {
+    // The bounds are finite, so the count is a number.
+    if count.x * count.y > MAX_TILES as f64 {
         return None;
     }
     let offset = |i: usize, j: usize| {

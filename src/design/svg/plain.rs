@@ -235,7 +235,7 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
             });
         let style = ElementStyle::of(self, node, inherited, overrides);
         let is_root = node.parent_element().is_none();
-        self.open_tag(node, tag, &style, inherited, overrides, is_root);
+        self.open_tag(node, tag, &style, inherited, overrides);
         let content = style.inherited_by_content(node, tag, inherited, overrides);
         self.content(node, &content)?;
         if is_root && !self.definitions.is_empty() {

@@ -4,7 +4,7 @@
 use super::math::{LengthContext, PercentageBasis, Quantity, QuantityKind, evaluate};
 use super::syntax::components;
 use crate::geometry::{DAffine2, DVec2};
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, DVec4};
 
 /// Box to which the percentages of a transform and its origin refer, in user units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,61 +92,59 @@ impl TransformReader {
     }
 
     fn function(&self, name: &str, arguments: &[&str]) -> Option<DMat4> {
-        let translation = |x, y| DMat4::from_translation(DVec3::new(x, y, 0.0));
-        let scale = |x, y| DMat4::from_scale(DVec3::new(x, y, 1.0));
-        let skew = |x: f64, y: f64| {
-            DMat4::from_cols_array(&[
-                1.0,
-                y.tan(),
-                0.0,
-                0.0,
-                x.tan(),
-                1.0,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                1.0,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                1.0,
-            ])
-        };
+        if name.starts_with("matrix") {
+            return self.matrix(arguments);
+        }
+        if name.starts_with("rotate") {
+            return self.rotation(name, arguments);
+        }
         Some(match (name, arguments) {
-            ("matrix", [_, _, _, _, _, _]) => {
-                let mut n = [0.0; 6];
-                for (n, text) in n.iter_mut().zip(arguments) {
-                    *n = self.number(text)?;
-                }
-                DMat4::from_cols_array(&[
-                    n[0], n[1], 0.0, 0.0, n[2], n[3], 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, n[4], n[5],
-                    0.0, 1.0,
-                ])
-            }
-            ("matrix3d", arguments) if arguments.len() == 16 => {
-                let mut n = [0.0; 16];
-                for (n, text) in n.iter_mut().zip(arguments) {
-                    *n = self.number(text)?;
-                }
-                let has_perspective = [n[3], n[7], n[11]] != [0.0; 3] || n[15] != 1.0;
-                (!has_perspective).then(|| DMat4::from_cols_array(&n))?
-            }
             ("translate" | "translatex", [x]) => translation(self.x(x)?, 0.0),
             ("translate", [x, y]) | ("translate3d", [x, y, _]) => {
                 translation(self.x(x)?, self.y(y)?)
             }
             ("translatey", [y]) => translation(0.0, self.y(y)?),
-            ("translatez", [_]) | ("scalez", [_]) => DMat4::IDENTITY,
+            ("translatez" | "scalez", [_]) => DMat4::IDENTITY,
             ("scale", [s]) => scale(self.number(s)?, self.number(s)?),
             ("scale", [x, y]) | ("scale3d", [x, y, _]) => scale(self.number(x)?, self.number(y)?),
             ("scalex", [x]) => scale(self.number(x)?, 1.0),
             ("scaley", [y]) => scale(1.0, self.number(y)?),
+            ("skew" | "skewx", [x]) => skew(self.angle(x)?, 0.0),
+            ("skew", [x, y]) => skew(self.angle(x)?, self.angle(y)?),
+            ("skewy", [y]) => skew(0.0, self.angle(y)?),
+            _ => return None,
+        })
+    }
+
+    /// Reads the arguments of `matrix` and `matrix3d`. Returns `None` for a matrix with perspective.
+    fn matrix(&self, arguments: &[&str]) -> Option<DMat4> {
+        let numbers = arguments.iter().map(|text| self.number(text));
+        match numbers.collect::<Option<Vec<f64>>>()?.as_slice() {
+            &[a, b, c, d, e, f] => {
+                let columns = [[a, b, 0.0], [c, d, 0.0], [0.0, 0.0, 1.0], [e, f, 0.0]];
+                let [x, y, z, w] = columns.map(DVec3::from);
+                Some(DMat4::from_cols(
+                    x.extend(0.0),
+                    y.extend(0.0),
+                    z.extend(0.0),
+                    w.extend(1.0),
+                ))
+            }
+            numbers => {
+                let columns: [f64; 16] = numbers.try_into().ok()?;
+                let map = DMat4::from_cols_array(&columns);
+                (map.row(3) == DVec4::W).then_some(map)
+            }
+        }
+    }
+
+    fn rotation(&self, name: &str, arguments: &[&str]) -> Option<DMat4> {
+        Some(match (name, arguments) {
             ("rotate" | "rotatez", [angle]) => DMat4::from_rotation_z(self.angle(angle)?),
             ("rotate", [angle, x, y]) if self.plain_numbers => {
                 let (x, y) = (self.x(x)?, self.y(y)?);
-                translation(x, y) * DMat4::from_rotation_z(self.angle(angle)?) * translation(-x, -y)
+                let turn = DMat4::from_rotation_z(self.angle(angle)?);
+                translation(x, y) * turn * translation(-x, -y)
             }
             ("rotatex", [angle]) => DMat4::from_rotation_x(self.angle(angle)?),
             ("rotatey", [angle]) => DMat4::from_rotation_y(self.angle(angle)?),
@@ -154,9 +152,6 @@ impl TransformReader {
                 let axis = DVec3::new(self.number(x)?, self.number(y)?, self.number(z)?);
                 DMat4::from_axis_angle(axis.try_normalize()?, self.angle(angle)?)
             }
-            ("skew" | "skewx", [x]) => skew(self.angle(x)?, 0.0),
-            ("skew", [x, y]) => skew(self.angle(x)?, self.angle(y)?),
-            ("skewy", [y]) => skew(0.0, self.angle(y)?),
             _ => return None,
         })
     }
@@ -218,6 +213,24 @@ impl TransformReader {
         let found = evaluate(text, &self.context, PercentageBasis::One)?;
         (found.kind == QuantityKind::Number).then_some(found.value)
     }
+}
+
+fn translation(x: f64, y: f64) -> DMat4 {
+    DMat4::from_translation(DVec3::new(x, y, 0.0))
+}
+
+fn scale(x: f64, y: f64) -> DMat4 {
+    DMat4::from_scale(DVec3::new(x, y, 1.0))
+}
+
+/// Returns the map that leans the vertical axis by `x` and the horizontal axis by `y` radians.
+fn skew(x: f64, y: f64) -> DMat4 {
+    DMat4::from_cols(
+        DVec4::new(1.0, y.tan(), 0.0, 0.0),
+        DVec4::new(x.tan(), 1.0, 0.0, 0.0),
+        DVec4::Z,
+        DVec4::W,
+    )
 }
 
 /// Separates arguments by spaces instead of commas, and numbers that follow each other without a

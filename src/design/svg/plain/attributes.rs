@@ -45,8 +45,8 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
         style: &ElementStyle,
         inherited: &InheritedStyle,
         overrides: &Overrides,
-        is_root: bool,
     ) {
+        let is_root = node.parent_element().is_none();
         self.drawing.text += &format!("<{tag}");
         if is_root {
             self.drawing.text += " xmlns=\"http://www.w3.org/2000/svg\"";
@@ -94,6 +94,14 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
                 _ => {}
             }
         }
+        if overrides.get("href").is_none() {
+            self.link(node);
+        }
+    }
+
+    /// Writes the link of an element to another one.
+    fn link(&mut self, node: Node<'d, 'a>) {
+        let tag = node.tag_name().name();
         if let Some(path) = node.attribute("path").filter(|_| tag == "textPath") {
             let id = format!("path-of-{}", plain_id(node.id(), 0));
             self.definitions += &format!("<path id=\"{id}\" d=\"");
@@ -105,28 +113,25 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
             tag,
             "use" | "image" | "linearGradient" | "radialGradient" | "pattern" | "textPath" | "tref"
         );
-        if let Some(href) = href(node).filter(|_| is_link && overrides.get("href").is_none()) {
-            match self.target(href) {
-                Target::Element(target) if self.sources.broken.contains(&(node.id(), target)) => {
-                    self.lost
-                        .ignore("reference to itself", &element_label(node));
-                }
-                Target::Element(target) => {
-                    self.attribute("href", &format!("#{}", plain_id(target, 0)))
-                }
-                Target::Missing => {}
-                Target::External if tag == "image" && is_drawing(href) => {
-                    self.attribute("href", href)
-                }
-                Target::External if tag == "image" => {
-                    self.lost
-                        .ignore("picture in the drawing", &element_label(node));
-                }
-                Target::External => self
-                    .lost
-                    .ignore("reference to another file", &element_label(node)),
+        let Some(href) = href(node).filter(|_| is_link) else {
+            return;
+        };
+        let broken = self.sources.broken;
+        let feature = match self.target(href) {
+            Target::Element(target) if broken.contains(&(node.id(), target)) => {
+                "reference to itself"
             }
-        }
+            Target::Element(target) => {
+                return self.attribute("href", &format!("#{}", plain_id(target, 0)));
+            }
+            Target::Missing => return,
+            Target::External if tag == "image" && is_drawing(href) => {
+                return self.attribute("href", href);
+            }
+            Target::External if tag == "image" => "picture in the drawing",
+            Target::External => "reference to another file",
+        };
+        self.lost.ignore(feature, &element_label(node));
     }
 
     /// Writes the properties, except those that make up the transform.

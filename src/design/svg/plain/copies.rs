@@ -16,73 +16,81 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
         node: Node<'d, 'a>,
         inherited: &InheritedStyle,
     ) -> Result<(), SvgError> {
+        let Some(target) = self.copy_target(node) else {
+            return Ok(());
+        };
+        self.count(node)?;
+        let style = ElementStyle::of(self, node, inherited, &Overrides::default());
+        // Copies of elements that take paints from the copy are left to `usvg`.
+        if takes_context_paint(target) {
+            self.open_tag(node, "use", &style, inherited, &Overrides::default());
+            self.close_tag("use");
+            return Ok(());
+        }
+        self.expanded_copy(node, target, style, inherited)
+    }
+
+    /// Returns the element that a copy shows. Reports references to other files and to the copy
+    /// itself.
+    fn copy_target(&mut self, node: Node<'d, 'a>) -> Option<Node<'d, 'a>> {
         let reference = href(node).unwrap_or_default().trim();
-        let Some(target) = reference
-            .strip_prefix('#')
-            .and_then(|id| self.sources.ids.get(id))
-        else {
-            if !reference.is_empty() && !reference.starts_with('#') {
+        let Some(id) = reference.strip_prefix('#') else {
+            if !reference.is_empty() {
                 self.lost
                     .ignore("use of another file", &element_label(node));
             }
-            return Ok(());
+            return None;
         };
-        let target = *target;
+        let target = *self.sources.ids.get(id)?;
         let is_circular = self.open_copies.contains(&target.id())
             || self.sources.broken.contains(&(node.id(), target.id()))
             || node.ancestors().any(|outer| outer == target);
         if is_circular {
             self.lost.ignore("use of itself", &element_label(node));
-            return Ok(());
+            return None;
         }
-        if !matches!(
+        let is_drawn = matches!(
             ElementKind::of(target),
             ElementKind::Drawn | ElementKind::Copy
-        ) {
-            return Ok(());
-        }
-        self.count(node)?;
-        // Copies of elements that take paints from the copy are left to `usvg`.
-        let is_expanded = !takes_context_paint(target);
-        let style = ElementStyle::of(self, node, inherited, &Overrides::default());
-        if !is_expanded {
-            self.open_tag(node, "use", &style, inherited, &Overrides::default(), false);
-            self.close_tag("use");
-            return Ok(());
-        }
-        let without_place = Overrides {
+        );
+        is_drawn.then_some(target)
+    }
+
+    /// Writes a group with a copy of `target`.
+    fn expanded_copy(
+        &mut self,
+        node: Node<'d, 'a>,
+        target: Node<'d, 'a>,
+        mut style: ElementStyle,
+        inherited: &InheritedStyle,
+    ) -> Result<(), SvgError> {
+        let without_link = Overrides {
             tag: Some("g"),
             attributes: vec![("href", String::new())],
         };
-        let mut style = style;
-        let size =
-            ["width", "height"].map(|name| style.values.remove(name).map(|value| value.text));
-        let place = [
-            ("x", PercentageBasis::Width),
-            ("y", PercentageBasis::Height),
-        ]
-        .map(|(name, basis)| {
-            let text = style
-                .values
-                .remove(name)
-                .map_or(String::new(), |value| value.text);
+        let mut removed = |name| style.values.remove(name).map(|value| value.text);
+        let size = ["width", "height"].map(&mut removed);
+        let [x, y] = ["x", "y"].map(|name| removed(name).unwrap_or_default());
+        let place = [(x, PercentageBasis::Width), (y, PercentageBasis::Height)];
+        let [x, y] = place.map(|(text, basis)| {
             evaluate(&text, &style.lengths, basis).map_or(0.0, |found| found.value)
         });
-        self.open_tag(node, "g", &style, inherited, &without_place, false);
+        self.open_tag(node, "g", &style, inherited, &without_link);
         let number = self.copies.entry(target.id()).or_default();
         *number += 1;
         let content = InheritedStyle {
             copy: *number,
-            ..style.inherited_by_content(node, "g", inherited, &without_place)
+            ..style.inherited_by_content(node, "g", inherited, &without_link)
         };
-        if place != [0.0; 2] {
-            self.drawing.text += &format!("<g transform=\"translate({} {})\">", place[0], place[1]);
+        let is_moved = [x, y] != [0.0; 2];
+        if is_moved {
+            self.drawing.text += &format!("<g transform=\"translate({x} {y})\">");
         }
         self.open_copies.push(target.id());
         let written = self.copied(target, &content, &size);
         self.open_copies.pop();
         written?;
-        if place != [0.0; 2] {
+        if is_moved {
             self.close_tag("g");
         }
         self.close_tag("g");
@@ -127,7 +135,7 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
         overrides
             .attributes
             .extend([("refX", String::new()), ("refY", String::new())]);
-        self.open_tag(symbol, "svg", &style, inherited, &overrides, false);
+        self.open_tag(symbol, "svg", &style, inherited, &overrides);
         let content = style.inherited_by_content(symbol, "svg", inherited, &overrides);
         let reference = self.reference_point(symbol, &content);
         if let Some([x, y]) = reference {

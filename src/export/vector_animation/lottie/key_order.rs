@@ -95,70 +95,78 @@ impl OrderedJson {
     }
 }
 
+/// Returns an outline with a segment of each kind.
+fn outline_at(x: f64) -> OutlinePath {
+    let p = |a: f64, b: f64| DVec2::new(a + x, b);
+    let commands = vec![
+        PathCommand::Move(p(0.0, 0.0)),
+        PathCommand::Line(p(9.0, 0.0)),
+        PathCommand::Quad(p(9.0, 9.0), p(4.0, 9.0)),
+        PathCommand::Cubic(p(3.0, 9.0), p(0.0, 5.0), p(0.0, 1.0)),
+        PathCommand::Close,
+    ];
+    OutlinePath {
+        commands,
+        names: Vec::new(),
+    }
+}
+
+/// Returns a drawing with an item of each kind. `x` moves and colours it.
+fn items_at(x: f64) -> Vec<DrawingItem> {
+    let outline = outline_at(x);
+    let p = |a: f64, b: f64| DVec2::new(a + x, b);
+    let colour = Rgb([x as u8, 20, 200]);
+    let paint = Paint {
+        colour,
+        opacity: 0.5,
+    };
+    let fill = |gradient| DrawingItem::Fill {
+        outline: outline.clone(),
+        paint,
+        gradient,
+        label: Some("</script>".to_owned()),
+    };
+    let gradient = |geometry| Gradient {
+        geometry,
+        frame: DAffine2::from_scale_angle_translation(p(9.0, 9.0), 0.0, p(1.0, 2.0)),
+        stops: [0.0, 1.0]
+            .map(|offset| GradientStop { offset, paint })
+            .to_vec(),
+        spread: GradientSpread::Pad,
+    };
+    let line = |join| DrawingItem::Stroke {
+        outline: outline.clone(),
+        line: StrokeStyle {
+            paint,
+            width: 2.0,
+            join,
+        },
+    };
+    let radial = GradientGeometry::Radial {
+        focus: DVec2::ZERO,
+        inner: 0.0,
+    };
+    vec![
+        fill(None),
+        fill(Some(gradient(GradientGeometry::Linear))),
+        fill(Some(gradient(radial))),
+        line(StrokeJoin::Mitre(4.0)),
+        line(StrokeJoin::Bevel),
+        DrawingItem::Bars {
+            segments: vec![[p(0.0, 0.0), p(5.0, 5.0)]],
+            width_px: 2.0,
+            colour,
+        },
+        DrawingItem::Discs {
+            centres: vec![p(3.0, 3.0)],
+            radius_px: 2.0,
+            colour,
+        },
+    ]
+}
+
 /// Returns an animation with a shape of each kind, of which the colour and the points change.
 fn every_kind_of_shape() -> VectorAnimation {
-    let moment = |x: f64| {
-        let p = |a: f64, b: f64| DVec2::new(a + x, b);
-        let commands = vec![
-            PathCommand::Move(p(0.0, 0.0)),
-            PathCommand::Line(p(9.0, 0.0)),
-            PathCommand::Quad(p(9.0, 9.0), p(4.0, 9.0)),
-            PathCommand::Cubic(p(3.0, 9.0), p(0.0, 5.0), p(0.0, 1.0)),
-            PathCommand::Close,
-        ];
-        let outline = OutlinePath {
-            commands,
-            names: Default::default(),
-        };
-        let colour = Rgb([x as u8, 20, 200]);
-        let paint = Paint {
-            colour,
-            opacity: 0.5,
-        };
-        let fill = |gradient| DrawingItem::Fill {
-            outline: outline.clone(),
-            paint,
-            gradient,
-            label: Some("</script>".to_owned()),
-        };
-        let gradient = |geometry| Gradient {
-            geometry,
-            frame: DAffine2::from_scale_angle_translation(p(9.0, 9.0), 0.0, p(1.0, 2.0)),
-            stops: [0.0, 1.0]
-                .map(|offset| GradientStop { offset, paint })
-                .to_vec(),
-            spread: GradientSpread::Pad,
-        };
-        let line = |join| DrawingItem::Stroke {
-            outline: outline.clone(),
-            line: StrokeStyle {
-                paint,
-                width: 2.0,
-                join,
-            },
-        };
-        let radial = GradientGeometry::Radial {
-            focus: DVec2::ZERO,
-            inner: 0.0,
-        };
-        vec![
-            fill(None),
-            fill(Some(gradient(GradientGeometry::Linear))),
-            fill(Some(gradient(radial))),
-            line(StrokeJoin::Mitre(4.0)),
-            line(StrokeJoin::Bevel),
-            DrawingItem::Bars {
-                segments: vec![[p(0.0, 0.0), p(5.0, 5.0)]],
-                width_px: 2.0,
-                colour,
-            },
-            DrawingItem::Discs {
-                centres: vec![p(3.0, 3.0)],
-                radius_px: 2.0,
-                colour,
-            },
-        ]
-    };
     let posed = |items: Vec<DrawingItem>| items.into_iter().filter_map(|i| PosedShape::of(&i));
     let moving = |(first, last): (PosedShape, PosedShape)| {
         let halves = first.points.iter().zip(&last.points);
@@ -171,7 +179,7 @@ fn every_kind_of_shape() -> VectorAnimation {
             first,
         }
     };
-    let shapes = posed(moment(0.0)).zip(posed(moment(100.0))).map(moving);
+    let shapes = posed(items_at(0.0)).zip(posed(items_at(100.0))).map(moving);
     let film = FilmSpec::evenly(0.0, 1.0, 10, 10.0).expect("a film");
     VectorAnimation {
         size: PixelSize::new(200, 20).expect("a legal size"),
