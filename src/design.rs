@@ -31,7 +31,7 @@ mod truss;
 mod unit;
 
 pub use crate::io::read::{MAX_FILE_BYTES, ReadError};
-pub use dxf::{DxfEntities, DxfError, DxfNote, DxfPlace, LeftOut};
+pub use dxf::DxfError;
 pub use error::{ImportError, ImportProblem};
 pub use flatten::TooManyPoints;
 pub use form::{Design, DesignForm};
@@ -40,7 +40,7 @@ pub use format::{Format, extensions};
 pub use import::{import, import_file};
 pub use json_error::JsonError;
 pub use lettering::TextError;
-pub use note::{ImportNote, OtherKinds};
+pub use note::{DxfEntities, DxfNote, DxfPlace, ImportNote, LeftOut, OtherKinds};
 pub use obj::{ObjError, ObjFault};
 pub use options::{ImportOptions, ImportOptionsError, PictureReading};
 pub use paint_layer::PaintLayer;

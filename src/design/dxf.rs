@@ -28,21 +28,19 @@ mod encoding;
 mod entity;
 mod error;
 mod expansion;
-mod hatch;
 mod hidden_lines;
 mod inline_codes;
 mod join;
-mod note;
 mod painter;
 mod pairs;
 mod record;
+mod report;
 mod sheet;
 mod spline;
 mod style;
 mod text;
 
-pub use error::{DxfError, DxfPlace};
-pub use note::{DxfEntities, DxfNote, LeftOut};
+pub use error::DxfError;
 pub(super) use pairs::BINARY;
 
 use super::flatten::MIN_TOLERANCE;

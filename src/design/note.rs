@@ -1,7 +1,10 @@
 //! Import notes: repairs, omissions and approximations made while a design was read,
 //! with one sentence of plain text for each.
 
-use super::dxf::DxfNote;
+mod dxf;
+
+pub use dxf::{DxfEntities, DxfNote, DxfPlace, LeftOut};
+
 use super::options::PictureReading;
 use crate::geometry::{FillRule, Repairs};
 use crate::io::sanitize::SanitizedLine;

@@ -34,7 +34,7 @@ pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
         view: drawing.view,
         height_px: f64::from(drawing.size.height()),
     };
-    let mut layers = LayerTable::default();
+    let mut layers = LayerNames::default();
     let mut entities = String::new();
     for item in &drawing.items {
         match item {
@@ -83,7 +83,7 @@ pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
 
 /// Layers of a document, in the order of their first use.
 #[derive(Default)]
-struct LayerTable {
+struct LayerNames {
     /// Escaped name and colour index of each layer.
     entries: Vec<(String, usize)>,
     /// Index of the layer of each name that is not escaped.
@@ -92,7 +92,7 @@ struct LayerTable {
     counts: HashMap<String, usize>,
 }
 
-impl LayerTable {
+impl LayerNames {
     /// Returns the pairs (group codes and values) of an entity's layer and colour. If `name` is
     /// empty, the layer is named after the colour.
     fn of(&mut self, name: &str, colour: Rgb) -> String {
@@ -179,7 +179,7 @@ impl DxfCoordinates {
         outline: &OutlinePath,
         colour: Rgb,
         width_px: Option<f64>,
-        layers: &mut LayerTable,
+        layers: &mut LayerNames,
     ) -> String {
         let width = width_px.map_or_else(String::new, |width| {
             let width = number(self.length(width));
@@ -374,7 +374,7 @@ mod tests {
 
     #[test]
     fn different_names_that_become_equal_are_numbered() {
-        let mut layers = LayerTable::default();
+        let mut layers = LayerNames::default();
         let red = Rgb([255, 0, 0]);
         let names = ["a/b", "a:b", "A_B", "a/b", "", "a_b_2"];
         let found: Vec<String> = names.iter().map(|name| layers.of(name, red)).collect();

@@ -2,23 +2,15 @@
 
 use super::encoding::decode;
 use super::entity::{DxfEntity, EntityShape, MULTILINE_REMARK};
-use super::error::{DxfError, MAX_OBJECTS, check_count};
-use super::expansion::{BlockExpansion, DxfDrawing};
-use super::note::{DxfNote, EntityReport};
-use super::record::{DxfRecord, EntityFault, RecordReader};
+use super::error::{DxfError, EntityFault, MAX_OBJECTS, check_count};
+use super::expansion::{BlockExpansion, DxfBlock, DxfDrawing};
+use super::record::{DxfRecord, RecordReader};
+use super::report::EntityReport;
 use super::style::{EntityStyle, LayerTable, name_key};
 use super::text::TextReader;
+use crate::design::note::DxfNote;
 use crate::design::unit::LengthUnit;
-use crate::geometry::DVec2;
 use std::collections::HashMap;
-
-/// Definition of a block: the entities that each reference to the block copies into the drawing.
-#[derive(Default)]
-pub(super) struct DxfBlock {
-    /// Point of the block that is placed at the insertion point of a reference.
-    pub base: DVec2,
-    pub entities: Vec<DxfEntity>,
-}
 
 /// Section of a DXF file.
 #[derive(Clone, Copy, PartialEq)]

@@ -1,14 +1,16 @@
 //! Converts DXF entities to curves and areas in the plane and to block references.
 
+mod hatch;
+
 use super::band::WideBand;
 use super::curve::{DxfCurve, EllipseArc};
-use super::error::DxfPlace;
-use super::hatch;
-use super::note::EntityRemark;
+use super::error::EntityFault;
 use super::pairs::GroupPair;
-use super::record::{DxfRecord, EntityFault};
+use super::record::DxfRecord;
+use super::report::EntityRemark;
 use super::spline;
 use super::style::{EntityStyle, Inheritable, name_key};
+use crate::design::note::DxfPlace;
 use crate::geometry::{DVec2, FillRule};
 use glam::{DAffine2, DMat2};
 use std::f64::consts::TAU;

@@ -1,9 +1,8 @@
-//! Errors of the DXF importer, the limits that they mention, and positions in a file.
+//! Errors of the DXF importer and the limits that they mention.
 
-use super::note::LeftOut;
 use crate::design::flatten::TooManyPoints;
+use crate::design::note::{DxfPlace, LeftOut};
 use crate::geometry::RegionsError;
-use std::fmt;
 
 /// Maximum number of entities and polyline vertices in the file (resource limit: a few hundred
 /// bytes each). While blocks are expanded, one object is counted for each path and each control
@@ -47,20 +46,17 @@ pub enum DxfError {
     Regions(#[from] RegionsError),
 }
 
-/// Position in a DXF file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DxfPlace {
-    /// Line of a text file, counted from 1.
-    Line(usize),
-    /// Byte offset in a binary file, counted from 0.
-    Byte(usize),
+/// Fault of one entity, which is then left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct EntityFault {
+    /// Position of the faulty value; `None` for a fault of the whole entity.
+    pub at: Option<DxfPlace>,
+    /// Fault, as worded in the message.
+    pub reason: &'static str,
 }
 
-impl fmt::Display for DxfPlace {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Line(line) => write!(f, "line {line}"),
-            Self::Byte(byte) => write!(f, "byte {byte}"),
-        }
+impl From<&'static str> for EntityFault {
+    fn from(reason: &'static str) -> Self {
+        Self { at: None, reason }
     }
 }

@@ -2,15 +2,23 @@
 
 use super::band::WideBand;
 use super::curve::DxfCurve;
-use super::drawing::DxfBlock;
 use super::entity::{AreaLoops, BlockReference, DxfEntity, EntityShape};
 use super::error::{DxfError, MAX_DEPTH, MAX_OBJECTS, check_count};
-use super::note::{DxfNote, EntityRemark, EntityReport};
+use super::report::{EntityRemark, EntityReport};
 use super::style::{LayerTable, ResolvedStyle, StyleKey};
+use crate::design::note::DxfNote;
 use crate::design::unit::LengthUnit;
 use crate::geometry::DVec2;
 use glam::DAffine2;
 use std::collections::HashMap;
+
+/// Definition of a block: the entities that each reference to the block copies into the drawing.
+#[derive(Default)]
+pub(super) struct DxfBlock {
+    /// Point of the block that is placed at the insertion point of a reference.
+    pub base: DVec2,
+    pub entities: Vec<DxfEntity>,
+}
 
 /// Curves and areas of a drawing.
 #[derive(Default)]

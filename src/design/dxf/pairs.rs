@@ -3,8 +3,8 @@
 //!
 //! Text values are slices of the file, so nothing is copied.
 
-use super::error::{DxfError, DxfPlace};
-use super::record::EntityFault;
+use super::error::{DxfError, EntityFault};
+use crate::design::note::DxfPlace;
 use crate::geometry::MAX_COORDINATE;
 
 /// Signature with which a binary DXF file begins.

@@ -1,9 +1,10 @@
 //! Records of a DXF file: entities, table entries and section heads, each with its pairs of group
 //! code and value.
 
-use super::error::{DxfError, DxfPlace, check_count};
-use super::note::EntityRemark;
+use super::error::{DxfError, EntityFault, check_count};
 use super::pairs::{GroupPair, PairReader};
+use super::report::EntityRemark;
+use crate::design::note::DxfPlace;
 use crate::geometry::DVec2;
 use glam::{DAffine2, DMat2, DVec3};
 use std::borrow::Cow;
@@ -12,21 +13,6 @@ use std::borrow::Cow;
 /// bytes per pair; a spline has about four pairs per control point, so a million control points
 /// fit).
 const MAX_PAIRS: usize = 4_000_000;
-
-/// Fault of one entity, which is then left out.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct EntityFault {
-    /// Position of the faulty value; `None` for a fault of the whole entity.
-    pub at: Option<DxfPlace>,
-    /// Fault, as worded in the message.
-    pub reason: &'static str,
-}
-
-impl From<&'static str> for EntityFault {
-    fn from(reason: &'static str) -> Self {
-        Self { at: None, reason }
-    }
-}
 
 /// Record of the file: an entity or table entry with its pairs of group code and value.
 pub(super) struct DxfRecord<'a> {

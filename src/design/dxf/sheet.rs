@@ -55,7 +55,7 @@ impl OutlineRing {
 }
 
 /// Flattened area.
-pub(super) struct FlatArea {
+pub(super) struct OutlinedArea {
     /// Outlines, filled by the non-zero rule.
     pub rings: WindingRings,
     pub is_text: bool,
@@ -69,7 +69,7 @@ pub(super) struct Sheet {
     pub rings: Vec<OutlineRing>,
     /// Indices of the paths that belong to no ring.
     pub lines: Vec<usize>,
-    pub areas: Vec<FlatArea>,
+    pub areas: Vec<OutlinedArea>,
     /// Number of duplicate curves that were ignored.
     pub duplicates: usize,
     /// Number of areas that enclose nothing and were ignored.
@@ -230,7 +230,7 @@ fn flatten_paths(paths: &[DxfPath], scale: SheetScale) -> Result<Vec<FlatPath>, 
 }
 
 /// Flattens areas; leaves out those that enclose nothing.
-fn flatten_areas(areas: &[DxfArea], scale: SheetScale) -> Result<Vec<FlatArea>, TooManyPoints> {
+fn flatten_areas(areas: &[DxfArea], scale: SheetScale) -> Result<Vec<OutlinedArea>, TooManyPoints> {
     let mut flattener = Flattener::new(scale.tolerance);
     let mut flat = Vec::with_capacity(areas.len());
     let mut count = 0;
@@ -253,7 +253,7 @@ fn flatten_areas(areas: &[DxfArea], scale: SheetScale) -> Result<Vec<FlatArea>, 
             return Err(TooManyPoints);
         }
         if let Ok(regions) = Regions::from_rings(&rings, rule) {
-            flat.push(FlatArea {
+            flat.push(OutlinedArea {
                 rings: regions.rings().map(|ring| ring.points().to_vec()).collect(),
                 is_text: area.is_text,
                 style: area.style,

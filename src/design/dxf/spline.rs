@@ -6,7 +6,8 @@
 //! spline is periodic. CAD programs draw fit points in this way.
 
 use super::curve::NurbsCurve;
-use super::record::{DxfRecord, EntityFault};
+use super::error::EntityFault;
+use super::record::DxfRecord;
 use crate::geometry::DVec2;
 
 /// Flag of a closed spline (group code 70).

@@ -3,7 +3,8 @@
 
 use super::colours::{BLACK, from_index, from_rgb_bits};
 use super::encoding::decode;
-use super::record::{DxfRecord, EntityFault};
+use super::error::EntityFault;
+use super::record::DxfRecord;
 use crate::colour::{Paint, Rgb};
 use std::collections::HashMap;
 use std::rc::Rc;

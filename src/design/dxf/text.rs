@@ -7,8 +7,9 @@
 use super::curve::DxfCurve;
 use super::encoding::decode;
 use super::entity::{AreaLoops, EntityShape};
+use super::error::EntityFault;
 use super::inline_codes::{plain_mtext, plain_text};
-use super::record::{DxfRecord, EntityFault};
+use super::record::DxfRecord;
 use super::style::name_key;
 use crate::design::lettering::{LetterHeights, LetteredLine, LineFont};
 use crate::geometry::{DVec2, FillRule};

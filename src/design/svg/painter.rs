@@ -1,13 +1,16 @@
 //! Converts a `usvg` tree to shapes: the area of each fill and stroke with its paint, in painting
 //! order, with clip paths, masks, blend modes, transforms and group opacity applied.
 
+mod masks;
+mod path_area;
+mod patterns;
+
 use super::blending::blend_shapes;
 use super::error::SvgError;
 use super::ink_layers::{WindingRings, clip_rings};
+use super::lost_features::{LostFeatures, element_label};
 use super::names::element_name;
-use super::notes::{LostFeatures, element_label};
 use super::opacity_groups::apply_group_opacity;
-use super::path_area::is_filled;
 use super::plain::source_element;
 use super::resolved_paint::{PaintSource, affine, paint_source};
 use super::shape::SvgShape;
@@ -16,6 +19,7 @@ use super::stroke::ShapeStroke;
 use crate::colour::{Gradient, Paint};
 use crate::design::flatten::Flattener;
 use crate::geometry::{DAffine2, DVec2, FillRule, Repairs};
+use path_area::is_filled;
 use std::collections::HashSet;
 use usvg::roxmltree::{Document, NodeId};
 use usvg::{BlendMode, Group, ImageKind, Node, PaintOrder, Path, Text, Transform};

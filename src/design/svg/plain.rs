@@ -15,7 +15,7 @@ use super::css::math::LengthContext;
 use super::css::variables::Variables;
 use super::error::{MAX_ELEMENTS, SvgError};
 use super::expansion_limits::BrokenReferences;
-use super::notes::{LostFeatures, element_label};
+use super::lost_features::{LostFeatures, element_label};
 use crate::geometry::{Bounds, DVec2};
 use element_style::ElementStyle;
 use kinds::ElementKind;

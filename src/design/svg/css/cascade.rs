@@ -4,7 +4,7 @@ use super::selectors::{Selector, SelectorKey, SelectorMatcher, Specificity, pars
 use super::syntax::{
     Declaration, RuleList, StyleRule, media_matches, read_declarations, without_comments,
 };
-use crate::design::svg::notes::LostFeatures;
+use crate::design::svg::lost_features::LostFeatures;
 use std::collections::HashMap;
 use usvg::roxmltree::{Document, Node};
 

@@ -190,7 +190,7 @@ impl ColourParser<'_> {
             expression = replace_word(&expression, "alpha", f64::from(values[3]));
             evaluate(&expression, self.context, PercentageBasis::One).map(|found| {
                 match found.kind {
-                    super::math::QuantityKind::Angle => found.value.to_degrees(),
+                    super::math::CssQuantityKind::Angle => found.value.to_degrees(),
                     _ => found.value,
                 }
             })

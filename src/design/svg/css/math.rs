@@ -47,14 +47,14 @@ impl LengthContext {
 
     /// Returns the size of a unit: user units for lengths, radians for angles. `ex` and `ch` are
     /// half of `em`, as in the fallback of the specification.
-    fn unit(&self, unit: &str, basis: PercentageBasis) -> Option<(f64, QuantityKind)> {
+    fn unit(&self, unit: &str, basis: PercentageBasis) -> Option<(f64, CssQuantityKind)> {
         const INCH: f64 = 96.0;
         let length = match unit {
-            "" => return Some((1.0, QuantityKind::Number)),
-            "deg" => return Some((PI / 180.0, QuantityKind::Angle)),
-            "grad" => return Some((PI / 200.0, QuantityKind::Angle)),
-            "rad" => return Some((1.0, QuantityKind::Angle)),
-            "turn" => return Some((2.0 * PI, QuantityKind::Angle)),
+            "" => return Some((1.0, CssQuantityKind::Number)),
+            "deg" => return Some((PI / 180.0, CssQuantityKind::Angle)),
+            "grad" => return Some((PI / 200.0, CssQuantityKind::Angle)),
+            "rad" => return Some((1.0, CssQuantityKind::Angle)),
+            "turn" => return Some((2.0 * PI, CssQuantityKind::Angle)),
             "px" => 1.0,
             "in" => INCH,
             "cm" => INCH / 2.54,
@@ -71,16 +71,16 @@ impl LengthContext {
             "vh" | "svh" | "lvh" | "dvh" | "vb" => self.page.y / 100.0,
             "vmin" => self.page.min_element() / 100.0,
             "vmax" => self.page.max_element() / 100.0,
-            "%" if basis == PercentageBasis::One => return Some((0.01, QuantityKind::Number)),
+            "%" if basis == PercentageBasis::One => return Some((0.01, CssQuantityKind::Number)),
             "%" => self.whole(basis) / 100.0,
             _ => return None,
         };
-        Some((length, QuantityKind::Length))
+        Some((length, CssQuantityKind::Length))
     }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::design::svg) enum QuantityKind {
+pub(in crate::design::svg) enum CssQuantityKind {
     Number,
     /// In user units.
     Length,
@@ -90,9 +90,9 @@ pub(in crate::design::svg) enum QuantityKind {
 
 /// Number with its kind of unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::design::svg) struct Quantity {
+pub(in crate::design::svg) struct CssQuantity {
     pub value: f64,
-    pub kind: QuantityKind,
+    pub kind: CssQuantityKind,
 }
 
 /// Evaluates a number with a unit or a mathematical function. `basis` is the size of 100 %. Returns
@@ -101,7 +101,7 @@ pub(in crate::design::svg) fn evaluate(
     text: &str,
     context: &LengthContext,
     basis: PercentageBasis,
-) -> Option<Quantity> {
+) -> Option<CssQuantity> {
     let mut parser = ExpressionParser {
         rest: text.trim(),
         context,
@@ -132,10 +132,10 @@ pub(in crate::design::svg) fn plain_lengths(
 }
 
 /// Writes a quantity as a plain number: user units for lengths, degrees for angles.
-fn plain_number(quantity: Quantity) -> String {
+fn plain_number(quantity: CssQuantity) -> String {
     match quantity.kind {
-        QuantityKind::Angle => quantity.value.to_degrees().to_string(),
-        QuantityKind::Number | QuantityKind::Length => quantity.value.to_string(),
+        CssQuantityKind::Angle => quantity.value.to_degrees().to_string(),
+        CssQuantityKind::Number | CssQuantityKind::Length => quantity.value.to_string(),
     }
 }
 
@@ -192,7 +192,7 @@ struct ExpressionParser<'e> {
 
 impl ExpressionParser<'_> {
     /// Parses a sum of products.
-    fn sum(&mut self, depth: usize) -> Option<Quantity> {
+    fn sum(&mut self, depth: usize) -> Option<CssQuantity> {
         let mut total = self.product(depth)?;
         loop {
             // The operators of sums have white space on both sides.
@@ -206,14 +206,14 @@ impl ExpressionParser<'_> {
             self.rest = &self.rest.trim_start()[1..];
             let term = self.product(depth)?;
             let kind = sum_kind(total, term)?;
-            total = Quantity {
+            total = CssQuantity {
                 value: total.value + sign * term.value,
                 kind,
             };
         }
     }
 
-    fn product(&mut self, depth: usize) -> Option<Quantity> {
+    fn product(&mut self, depth: usize) -> Option<CssQuantity> {
         let mut total = self.operand(depth)?;
         loop {
             let rest = self.rest.trim_start();
@@ -223,21 +223,21 @@ impl ExpressionParser<'_> {
             self.rest = &rest[1..];
             let factor = self.operand(depth)?;
             let kind = match (total.kind, factor.kind) {
-                (kind, QuantityKind::Number) => kind,
-                (QuantityKind::Number, kind) if operator == '*' => kind,
-                (a, b) if operator == '/' && a == b => QuantityKind::Number,
+                (kind, CssQuantityKind::Number) => kind,
+                (CssQuantityKind::Number, kind) if operator == '*' => kind,
+                (a, b) if operator == '/' && a == b => CssQuantityKind::Number,
                 _ => return None,
             };
             let value = match operator {
                 '*' => total.value * factor.value,
                 _ => total.value / factor.value,
             };
-            total = Quantity { value, kind };
+            total = CssQuantity { value, kind };
         }
     }
 
     /// Parses a number with its unit, a constant, a function or an expression in brackets.
-    fn operand(&mut self, depth: usize) -> Option<Quantity> {
+    fn operand(&mut self, depth: usize) -> Option<CssQuantity> {
         if depth > MAX_DEPTH {
             return None;
         }
@@ -255,7 +255,7 @@ impl ExpressionParser<'_> {
         if number > 0 {
             let (size, kind) = self.context.unit(&unit, self.basis)?;
             let value = value.parse::<f64>().ok()? * size;
-            return Some(Quantity { value, kind });
+            return Some(CssQuantity { value, kind });
         }
         if let Some(inner) = self.rest.strip_prefix('(') {
             self.rest = inner;
@@ -267,13 +267,13 @@ impl ExpressionParser<'_> {
             "infinity" => f64::INFINITY,
             _ => return None,
         };
-        let kind = QuantityKind::Number;
-        Some(Quantity { value, kind })
+        let kind = CssQuantityKind::Number;
+        Some(CssQuantity { value, kind })
     }
 
     /// Parses the arguments of a function and its closing bracket, and applies the function. The
     /// strategies of `round` are its first argument.
-    fn function(&mut self, name: &str, depth: usize) -> Option<Quantity> {
+    fn function(&mut self, name: &str, depth: usize) -> Option<CssQuantity> {
         let mut strategy = "nearest";
         for known in ["nearest", "up", "down", "to-zero"] {
             let rest = self.rest.trim_start().strip_prefix(known);
@@ -293,7 +293,7 @@ impl ExpressionParser<'_> {
 }
 
 /// Returns the kind of a sum. Zero is a number and a length in SVG.
-fn sum_kind(a: Quantity, b: Quantity) -> Option<QuantityKind> {
+fn sum_kind(a: CssQuantity, b: CssQuantity) -> Option<CssQuantityKind> {
     match (a.kind, b.kind) {
         (a, b) if a == b => Some(a),
         _ => None,
@@ -301,14 +301,14 @@ fn sum_kind(a: Quantity, b: Quantity) -> Option<QuantityKind> {
 }
 
 /// Applies a mathematical function to its arguments. `strategy` is the rounding strategy.
-fn apply(name: &str, strategy: &str, arguments: &[Quantity]) -> Option<Quantity> {
+fn apply(name: &str, strategy: &str, arguments: &[CssQuantity]) -> Option<CssQuantity> {
     let first = *arguments.first()?;
     if arguments.iter().any(|argument| argument.kind != first.kind) && name != "pow" {
         return None;
     }
     let values: Vec<f64> = arguments.iter().map(|argument| argument.value).collect();
-    let number = |value| (value, QuantityKind::Number);
-    let angle = |value| (value, QuantityKind::Angle);
+    let number = |value| (value, CssQuantityKind::Number);
+    let angle = |value| (value, CssQuantityKind::Angle);
     let same = |value| (value, first.kind);
     let (value, kind) = match (name, values.as_slice()) {
         ("" | "calc" | "-webkit-calc", &[x]) => same(x),
@@ -336,7 +336,7 @@ fn apply(name: &str, strategy: &str, arguments: &[Quantity]) -> Option<Quantity>
         ("exp", &[x]) => number(x.exp()),
         _ => return None,
     };
-    Some(Quantity { value, kind })
+    Some(CssQuantity { value, kind })
 }
 
 /// Rounds a number to a multiple of `step`.
@@ -364,8 +364,8 @@ pub(in crate::design::svg) mod tests {
 
     #[test]
     fn expressions_have_the_values_of_the_specification() {
-        let length = QuantityKind::Length;
-        let number = QuantityKind::Number;
+        let length = CssQuantityKind::Length;
+        let number = CssQuantityKind::Number;
         let cases = [
             ("12", 12.0, number),
             ("-.5e1px", -5.0, length),

@@ -2,7 +2,7 @@
 //! plain attributes.
 
 use super::colours::plain_colour;
-use super::math::{LengthContext, PercentageBasis, QuantityKind, evaluate, plain_lengths};
+use super::math::{CssQuantityKind, LengthContext, PercentageBasis, evaluate, plain_lengths};
 use super::syntax::{components, find_outside_brackets};
 
 /// Type of the values of a property.
@@ -249,12 +249,12 @@ pub(in crate::design::svg) fn plain_value(
         ValueType::Colour => plain_colour(value, current, lengths),
         ValueType::Opacity => {
             let found = evaluate(value, lengths, PercentageBasis::One)?;
-            let is_number = found.kind == QuantityKind::Number;
+            let is_number = found.kind == CssQuantityKind::Number;
             is_number.then(|| found.value.clamp(0.0, 1.0).to_string())
         }
         ValueType::Number => {
             let found = evaluate(value, lengths, PercentageBasis::One)?;
-            (found.kind == QuantityKind::Number).then(|| found.value.to_string())
+            (found.kind == CssQuantityKind::Number).then(|| found.value.to_string())
         }
         ValueType::Length(basis) => {
             let lower = lower();
@@ -270,7 +270,7 @@ pub(in crate::design::svg) fn plain_value(
                 return Some(String::new());
             }
             let found = evaluate(value, lengths, basis)?;
-            let has_unit = found.kind == QuantityKind::Length || found.value == 0.0;
+            let has_unit = found.kind == CssQuantityKind::Length || found.value == 0.0;
             has_unit.then(|| found.value.to_string())
         }
         ValueType::Keyword => Some(plain_keyword(property.name, &lower())),

@@ -1,7 +1,7 @@
 //! Splits style sheets into rules and declarations with the error recovery of CSS Syntax 3: a
 //! malformed rule or declaration is dropped, the rest stays valid.
 
-use crate::design::svg::notes::LostFeatures;
+use crate::design::svg::lost_features::LostFeatures;
 
 /// Maximum depth of nested rules (resource limit: the reader recurses).
 const MAX_NESTING: usize = 16;

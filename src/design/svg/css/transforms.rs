@@ -1,7 +1,7 @@
 //! Transforms (CSS Transforms 2): lists of functions, individual properties and the origin,
 //! reduced to one affine map of the plane. Rotations out of the plane are projected in parallel.
 
-use super::math::{LengthContext, PercentageBasis, Quantity, QuantityKind, evaluate};
+use super::math::{CssQuantity, CssQuantityKind, LengthContext, PercentageBasis, evaluate};
 use super::syntax::components;
 use crate::geometry::{DAffine2, DVec2};
 use glam::{DMat4, DVec3, DVec4};
@@ -190,28 +190,30 @@ impl TransformReader {
         self.length(evaluate(text, &self.context, PercentageBasis::Height)?)
     }
 
-    fn length(&self, found: Quantity) -> Option<f64> {
+    fn length(&self, found: CssQuantity) -> Option<f64> {
         match found.kind {
-            QuantityKind::Length => Some(found.value),
-            QuantityKind::Number if self.plain_numbers || found.value == 0.0 => Some(found.value),
-            QuantityKind::Number | QuantityKind::Angle => None,
+            CssQuantityKind::Length => Some(found.value),
+            CssQuantityKind::Number if self.plain_numbers || found.value == 0.0 => {
+                Some(found.value)
+            }
+            CssQuantityKind::Number | CssQuantityKind::Angle => None,
         }
     }
 
     fn angle(&self, text: &str) -> Option<f64> {
         let found = evaluate(text, &self.context, PercentageBasis::One)?;
         match found.kind {
-            QuantityKind::Angle => Some(found.value),
-            QuantityKind::Number if self.plain_numbers || found.value == 0.0 => {
+            CssQuantityKind::Angle => Some(found.value),
+            CssQuantityKind::Number if self.plain_numbers || found.value == 0.0 => {
                 Some(found.value.to_radians())
             }
-            QuantityKind::Number | QuantityKind::Length => None,
+            CssQuantityKind::Number | CssQuantityKind::Length => None,
         }
     }
 
     fn number(&self, text: &str) -> Option<f64> {
         let found = evaluate(text, &self.context, PercentageBasis::One)?;
-        (found.kind == QuantityKind::Number).then_some(found.value)
+        (found.kind == CssQuantityKind::Number).then_some(found.value)
     }
 }
 

@@ -6,7 +6,7 @@ use super::{InheritedStyle, Overrides, PlainWriter, plain_id, push_escaped};
 use crate::design::svg::css::properties::is_presentation_attribute;
 use crate::design::svg::css::syntax::find_outside_brackets;
 use crate::design::svg::css::transforms::{ReferenceBox, TransformProperties, affine_map};
-use crate::design::svg::notes::element_label;
+use crate::design::svg::lost_features::element_label;
 use crate::geometry::DVec2;
 use usvg::roxmltree::{Attribute, Node, NodeId};
 

@@ -6,7 +6,7 @@ use super::kinds::ElementKind;
 use super::{InheritedStyle, Overrides, PlainWriter, view_box_size};
 use crate::design::svg::css::math::{PercentageBasis, evaluate};
 use crate::design::svg::error::SvgError;
-use crate::design::svg::notes::element_label;
+use crate::design::svg::lost_features::element_label;
 use usvg::roxmltree::Node;
 
 impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {

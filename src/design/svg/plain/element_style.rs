@@ -10,7 +10,7 @@ use crate::design::svg::css::syntax::{Declaration, components};
 use crate::design::svg::css::variables::{
     Variables, computed_variables, has_references, substitute,
 };
-use crate::design::svg::notes::element_label;
+use crate::design::svg::lost_features::element_label;
 use crate::geometry::DVec2;
 use std::collections::BTreeMap;
 use std::rc::Rc;

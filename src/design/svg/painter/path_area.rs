@@ -1,16 +1,16 @@
 //! Areas of paths on the page: fills, strokes and clip paths.
 
-use super::error::SvgError;
-use super::ink_layers::{WindingRings, clip_rings, union};
-use super::painter::SvgPainter;
-use super::plain::source_element;
+use super::SvgPainter;
+use crate::design::svg::error::SvgError;
+use crate::design::svg::ink_layers::{WindingRings, clip_rings, union};
+use crate::design::svg::plain::source_element;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
 use usvg::{ClipPath, Group, Node, Path, Stroke, Transform, tiny_skia_path};
 
 impl SvgPainter<'_> {
     /// Returns the area of a clip path on the page. `frame` maps the coordinates of the clipped
     /// group to the page.
-    pub(super) fn clip(
+    pub(in crate::design::svg) fn clip(
         &mut self,
         clip: &ClipPath,
         frame: Transform,
@@ -53,7 +53,7 @@ impl SvgPainter<'_> {
 
     /// Returns the filled area of a path on the page, y up, by the path's own fill rule. `base` is
     /// applied after the path's transform.
-    pub(super) fn filled_area(
+    pub(in crate::design::svg) fn filled_area(
         &mut self,
         path: &Path,
         base: Transform,
@@ -75,7 +75,10 @@ impl SvgPainter<'_> {
     }
 
     /// Returns the rings of a path if all of them bound its area and none cross; otherwise `None`.
-    pub(super) fn simple_rings(&mut self, path: &Path) -> Result<Option<WindingRings>, SvgError> {
+    pub(in crate::design::svg) fn simple_rings(
+        &mut self,
+        path: &Path,
+    ) -> Result<Option<WindingRings>, SvgError> {
         let before = self.flattener.clone();
         let rings = self.rings(path.data(), self.base.pre_concat(path.abs_transform()))?;
         let rule = match path.fill().map(usvg::Fill::rule) {
@@ -94,7 +97,10 @@ impl SvgPainter<'_> {
     }
 
     /// Returns the area of a path's stroke, including dashes, joins and caps.
-    pub(super) fn stroked_area(&mut self, path: &Path) -> Result<WindingRings, SvgError> {
+    pub(in crate::design::svg) fn stroked_area(
+        &mut self,
+        path: &Path,
+    ) -> Result<WindingRings, SvgError> {
         let transform = self.base.pre_concat(path.abs_transform());
         let Some(stroke) = path.stroke() else {
             return Ok(Vec::new());
@@ -116,7 +122,7 @@ impl SvgPainter<'_> {
     }
 
     /// Returns whether the stroke of a path keeps its width when the drawing is scaled.
-    pub(super) fn is_non_scaling(&self, path: &Path) -> bool {
+    pub(in crate::design::svg) fn is_non_scaling(&self, path: &Path) -> bool {
         let source = source_element(path.id());
         source.is_some_and(|id| self.options.non_scaling.contains(&id))
     }
@@ -183,8 +189,12 @@ impl SvgPainter<'_> {
     }
 
     /// Returns a rectangle (left, top, width, height), transformed by `t`, on the page, y up.
-    pub(super) fn rectangle(&self, [x, y, w, h]: [f64; 4], t: Transform) -> WindingRings {
-        let map = super::resolved_paint::affine(t);
+    pub(in crate::design::svg) fn rectangle(
+        &self,
+        [x, y, w, h]: [f64; 4],
+        t: Transform,
+    ) -> WindingRings {
+        let map = crate::design::svg::resolved_paint::affine(t);
         let corners = [(x, y), (x + w, y), (x + w, y + h), (x, y + h)];
         let corners = corners.map(|(x, y)| {
             let p = map.transform_point2(DVec2::new(x, y));
@@ -239,7 +249,7 @@ fn path_length(path: &tiny_skia_path::Path) -> f64 {
 }
 
 /// Resolves crossings and overlaps of rings by a fill rule; returns no rings if the area is empty.
-pub(super) fn resolve_overlaps(
+pub(in crate::design::svg) fn resolve_overlaps(
     rings: &WindingRings,
     rule: FillRule,
 ) -> Result<WindingRings, SvgError> {
@@ -251,7 +261,7 @@ pub(super) fn resolve_overlaps(
 }
 
 /// Returns whether a path has a visible fill.
-pub(super) fn is_filled(path: &Path) -> bool {
+pub(in crate::design::svg) fn is_filled(path: &Path) -> bool {
     let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0);
     path.is_visible() && fill.is_some()
 }

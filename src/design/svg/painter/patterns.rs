@@ -1,12 +1,12 @@
 //! Paints areas with patterns: the content of a tile is painted once and repeated.
 
-use super::error::SvgError;
-use super::ink_layers::{WindingRings, clip_rings, union};
-use super::opacity_groups::apply_group_opacity;
-use super::painter::SvgPainter;
-use super::resolved_paint::affine;
-use super::shape::SvgShape;
+use super::SvgPainter;
 use crate::colour::Paint;
+use crate::design::svg::error::SvgError;
+use crate::design::svg::ink_layers::{WindingRings, clip_rings, union};
+use crate::design::svg::opacity_groups::apply_group_opacity;
+use crate::design::svg::resolved_paint::affine;
+use crate::design::svg::shape::SvgShape;
 use crate::geometry::{Bounds, DAffine2, DVec2};
 use usvg::{Opacity, Path, Pattern};
 
@@ -24,7 +24,7 @@ const MAX_GRADIENT_TILES: usize = 64;
 impl SvgPainter<'_> {
     /// Adds the area `rings` of a path, painted with a pattern. A pattern with too many tiles is
     /// replaced by its mean colour.
-    pub(super) fn add_pattern(
+    pub(in crate::design::svg) fn add_pattern(
         &mut self,
         path: &Path,
         rings: WindingRings,

@@ -1,12 +1,12 @@
 //! Masks (CSS Masking 1): the areas of a mask, each with the opacity that its luminance or alpha
 //! gives, are cut out of the masked shapes.
 
-use super::error::SvgError;
-use super::flat_areas::{FlatArea, flatten};
-use super::ink_layers::{WindingRings, clip_rings};
-use super::painter::SvgPainter;
-use super::shape::SvgShape;
+use super::SvgPainter;
 use crate::colour::Paint;
+use crate::design::svg::error::SvgError;
+use crate::design::svg::flat_areas::{FlatArea, flatten};
+use crate::design::svg::ink_layers::{WindingRings, clip_rings};
+use crate::design::svg::shape::SvgShape;
 use crate::geometry::Bounds;
 use usvg::{Mask, MaskType, Transform};
 
@@ -16,7 +16,7 @@ const MIN_OPACITY: f64 = 0.5 / 255.0;
 
 impl SvgPainter<'_> {
     /// Applies a mask to shapes. `frame` maps the coordinates of the masked group to the page.
-    pub(super) fn masked(
+    pub(in crate::design::svg) fn masked(
         &mut self,
         shapes: Vec<SvgShape>,
         mask: &Mask,
