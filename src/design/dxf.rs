@@ -28,11 +28,13 @@ mod encoding;
 mod entity;
 mod error;
 mod expansion;
+mod hatch;
 mod hidden_lines;
 mod inline_codes;
 mod join;
 mod painter;
 mod pairs;
+mod polyline;
 mod record;
 mod report;
 mod sheet;
@@ -44,10 +46,9 @@ pub use error::DxfError;
 pub(super) use pairs::BINARY;
 
 use super::flatten::MIN_TOLERANCE;
-use super::form::{Design, ImportedOutlines};
 use super::options::ImportOptions;
-use super::unit::LengthUnit;
 use crate::geometry::Bounds;
+use painter::DxfImport;
 use sheet::{Sheet, SheetScale};
 
 /// Maximum distance between end points that are joined, as a fraction of the drawing's longer side
@@ -66,23 +67,6 @@ pub(super) const HAIR: f64 = 0.001;
 /// (derived: the area of a circle of a tenth of the drawing is then exact to a thousandth at the
 /// default tolerance, because chords lie inside the circle).
 const FLATNESS: f64 = 0.25;
-
-/// Imported DXF drawing.
-pub(super) struct DxfImport {
-    pub outlines: ImportedOutlines,
-    /// Unit of length that the file declares.
-    pub unit: Option<LengthUnit>,
-}
-
-impl DxfImport {
-    /// Turns the import result into a design with the given name.
-    pub(super) fn into_design(self, name: String) -> Design {
-        Design {
-            unit: self.unit,
-            ..self.outlines.into_design(name)
-        }
-    }
-}
 
 /// Imports a DXF file. `options.tolerance` is the maximum deviation of flattened curves, as a
 /// fraction of the drawing's longer side.

@@ -61,7 +61,7 @@ pub enum ImportNote {
     LostFeature {
         /// Name of the feature: an element, a property or a few words.
         feature: String,
-        /// What was done instead, such as "replaced by its mean colour"; `None` if the feature was
+        /// Treatment instead, such as "replaced by its mean colour"; `None` if the feature was
         /// ignored.
         replacement: Option<String>,
         /// First elements that use the feature: their ids, or their tags and lines.

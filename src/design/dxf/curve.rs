@@ -7,7 +7,7 @@
 //! curve is therefore estimated, not bounded.
 
 use crate::design::flatten::MAX_POINTS;
-use crate::geometry::{DVec2, distance_squared_to_segment};
+use crate::geometry::{DVec2, FillRule, distance_squared_to_segment};
 use glam::{DAffine2, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -290,4 +290,19 @@ fn bisect(
     let middle = 0.5 * (from + to);
     bisect(point, [from, middle], tolerance, depth - 1, points);
     bisect(point, [middle, to], tolerance, depth - 1, points);
+}
+
+/// Closed loops of curves and the rule that decides what they enclose.
+#[derive(Debug)]
+pub(super) struct AreaLoops {
+    pub loops: Vec<Vec<DxfCurve>>,
+    pub rule: FillRule,
+}
+
+/// Returns the counter-clockwise angle from the direction `from` to the direction `to`, in (0, 2π]
+/// radians.
+pub(super) fn positive_angle(from: f64, to: f64) -> f64 {
+    let sweep = (to - from).rem_euclid(TAU);
+    // Directions that are equal up to rounding errors mean a full turn.
+    if sweep <= 1e-12 { TAU } else { sweep }
 }

@@ -1,11 +1,11 @@
 //! Converts DXF entities to curves and areas in the plane and to block references.
 
-mod hatch;
-
 use super::band::WideBand;
-use super::curve::{DxfCurve, EllipseArc};
+use super::curve::{AreaLoops, DxfCurve, EllipseArc, positive_angle};
 use super::error::EntityFault;
+use super::hatch;
 use super::pairs::GroupPair;
+use super::polyline::{PolylineVertex, polyline_curves};
 use super::record::DxfRecord;
 use super::report::EntityRemark;
 use super::spline;
@@ -47,13 +47,6 @@ pub(super) enum EntityShape {
     Group(Vec<EntityShape>),
     /// Reference that places one or more copies of a block.
     Insert(BlockReference),
-}
-
-/// Closed loops of curves and the rule that decides what they enclose.
-#[derive(Debug)]
-pub(super) struct AreaLoops {
-    pub loops: Vec<Vec<DxfCurve>>,
-    pub rule: FillRule,
 }
 
 /// Reference to a block.
@@ -375,14 +368,6 @@ impl DxfRecord<'_> {
     }
 }
 
-/// Returns the counter-clockwise angle from the direction `from` to the direction `to`, in (0, 2π]
-/// radians.
-pub(super) fn positive_angle(from: f64, to: f64) -> f64 {
-    let sweep = (to - from).rem_euclid(TAU);
-    // Directions that are equal up to rounding errors mean a full turn.
-    if sweep <= 1e-12 { TAU } else { sweep }
-}
-
 /// Returns an open path that consists of one curve.
 fn open_path(curve: DxfCurve) -> EntityShape {
     EntityShape::Path {
@@ -398,52 +383,6 @@ fn arc_shape(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
         is_closed: arc.is_full_ellipse(),
         curves: vec![DxfCurve::Arc(arc).transformed(plan)],
     }
-}
-
-/// Vertex of a polyline, with the properties of the line or arc that starts there.
-#[derive(Clone, Copy)]
-pub(super) struct PolylineVertex {
-    pub point: DVec2,
-    /// Tangent of a quarter of the arc's angle, or 0 for a line.
-    pub bulge: f64,
-    /// Widths at the start and at the end.
-    pub widths: [f64; 2],
-}
-
-impl PolylineVertex {
-    /// Reads the vertices of a polyline from a list of pairs.
-    pub fn list(pairs: &[GroupPair]) -> Result<Vec<Self>, EntityFault> {
-        let mut corners: Vec<Self> = Vec::new();
-        for pair in pairs {
-            match (pair.code, corners.last_mut()) {
-                (10, _) => corners.push(Self {
-                    point: DVec2::new(pair.real()?, 0.0),
-                    bulge: 0.0,
-                    widths: [0.0; 2],
-                }),
-                (20, Some(corner)) => corner.point.y = pair.real()?,
-                (40, Some(corner)) => corner.widths[0] = pair.real()?,
-                (41, Some(corner)) => corner.widths[1] = pair.real()?,
-                (42, Some(corner)) => corner.bulge = pair.real()?,
-                _ => {}
-            }
-        }
-        Ok(corners)
-    }
-}
-
-/// Returns the sides of a polyline.
-pub(super) fn polyline_curves(
-    corners: &[PolylineVertex],
-    is_closed: bool,
-) -> impl Iterator<Item = DxfCurve> {
-    // An open polyline has one line or arc fewer than it has vertices.
-    let last = corners.len().saturating_sub(1);
-    let sides = if is_closed { corners.len() } else { last };
-    (0..sides).map(|i| {
-        let (a, b) = (&corners[i], &corners[(i + 1) % corners.len()]);
-        DxfCurve::from_bulge(a.point, b.point, a.bulge)
-    })
 }
 
 /// Returns the path through the vertices of a polyline, or the band along it if it has a width,

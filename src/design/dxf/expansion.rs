@@ -1,8 +1,8 @@
 //! Expands block references into the curves and areas of the drawing, with resolved styles.
 
 use super::band::WideBand;
-use super::curve::DxfCurve;
-use super::entity::{AreaLoops, BlockReference, DxfEntity, EntityShape};
+use super::curve::{AreaLoops, DxfCurve};
+use super::entity::{BlockReference, DxfEntity, EntityShape};
 use super::error::{DxfError, MAX_DEPTH, MAX_OBJECTS, check_count};
 use super::report::{EntityRemark, EntityReport};
 use super::style::{LayerTable, ResolvedStyle, StyleKey};

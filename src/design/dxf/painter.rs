@@ -4,7 +4,6 @@
 //! the lines. Each combination of layer, colour and opacity is a group of its own: its outlines and
 //! areas are stacked by containment, its lines lie above all areas, its letters above all lines.
 
-use super::DxfImport;
 use super::band::Pen;
 use super::encoding::decode;
 use super::error::DxfError;
@@ -14,13 +13,31 @@ use super::sheet::{OutlineRing, Sheet, SheetScale};
 use super::style::{DEFAULT_WEIGHT, ResolvedStyle};
 use crate::colour::Paint;
 use crate::design::flatten::{Flattener, TooManyPoints};
-use crate::design::form::ImportedOutlines;
+use crate::design::form::{Design, ImportedOutlines};
 use crate::design::note::{DxfNote, ImportNote};
 use crate::design::paint_layer::{PaintGroup, PaintLayer, stack_by_containment};
 use crate::design::svg::{WindingRings, union};
+use crate::design::unit::LengthUnit;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
+
+/// Imported DXF drawing.
+pub(in crate::design) struct DxfImport {
+    pub outlines: ImportedOutlines,
+    /// Unit of length that the file declares.
+    pub unit: Option<LengthUnit>,
+}
+
+impl DxfImport {
+    /// Turns the import result into a design with the given name.
+    pub(in crate::design) fn into_design(self, name: String) -> Design {
+        Design {
+            unit: self.unit,
+            ..self.outlines.into_design(name)
+        }
+    }
+}
 
 /// Paints a flattened drawing. Lines are part of the silhouette if `strokes` is true, and of the
 /// paint layers in any case.

@@ -8,6 +8,7 @@ mod texts;
 
 use super::*;
 use crate::colour::Rgb;
+use crate::design::form::ImportedOutlines;
 use crate::design::note::ImportNote;
 use crate::design::paint_layer::PaintLayer;
 use crate::geometry::{DVec2, Regions};

@@ -4,9 +4,9 @@
 //! apart (Autodesk, DXF Reference: MTEXT, line spacing). Inline formatting of MTEXT is removed and
 //! reported; fonts other than the bundled one are replaced and reported.
 
-use super::curve::DxfCurve;
+use super::curve::{AreaLoops, DxfCurve};
 use super::encoding::decode;
-use super::entity::{AreaLoops, EntityShape};
+use super::entity::EntityShape;
 use super::error::EntityFault;
 use super::inline_codes::{plain_mtext, plain_text};
 use super::record::DxfRecord;

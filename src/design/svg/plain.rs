@@ -8,30 +8,24 @@
 mod attributes;
 mod copies;
 mod element_style;
+mod inherited;
 mod kinds;
 
 use super::css::cascade::StyleCascade;
-use super::css::math::LengthContext;
-use super::css::variables::Variables;
 use super::error::{MAX_ELEMENTS, SvgError};
 use super::expansion_limits::BrokenReferences;
 use super::lost_features::{LostFeatures, element_label};
-use crate::geometry::{Bounds, DVec2};
+use crate::geometry::Bounds;
 use element_style::ElementStyle;
+use inherited::{InheritedStyle, Overrides};
 use kinds::ElementKind;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use usvg::roxmltree::{Document, Node, NodeId};
 
 /// Maximum length of the rewritten drawing, in bytes (resource limit: some 500 bytes for each of
 /// the largest number of elements).
 const MAX_TEXT: usize = 100_000_000;
-
-/// Font size of browsers for text without one, in user units.
-const DEFAULT_FONT_SIZE: f64 = 16.0;
-
-/// Size of the page of a drawing that gives none (CSS 2, section 10.3.2).
-const DEFAULT_PAGE: DVec2 = DVec2::new(300.0, 150.0);
 
 /// Drawing with plain attributes.
 pub(super) struct PlainDrawing {
@@ -103,85 +97,6 @@ pub(super) fn source_element(id: &str) -> Option<NodeId> {
     number.parse().ok().map(NodeId::new)
 }
 
-/// Values that an element inherits from its surroundings.
-#[derive(Clone)]
-struct InheritedStyle {
-    variables: Variables,
-    lengths: LengthContext,
-    /// Value of `color`.
-    colour: String,
-    /// Value of `text-transform`.
-    text_transform: String,
-    is_in_clip_path: bool,
-    is_in_text: bool,
-    /// Number of the copy (`use`) that the element belongs to; 0 outside of copies.
-    copy: u32,
-}
-
-impl InheritedStyle {
-    /// Returns the values outside of the root element.
-    fn initial(root: Node) -> Self {
-        let page = page_size(root);
-        Self {
-            variables: Rc::new(BTreeMap::new()),
-            lengths: LengthContext {
-                font_size: DEFAULT_FONT_SIZE,
-                root_font_size: DEFAULT_FONT_SIZE,
-                viewport: page,
-                page,
-            },
-            colour: "black".to_owned(),
-            text_transform: String::new(),
-            is_in_clip_path: false,
-            is_in_text: false,
-            copy: 0,
-        }
-    }
-}
-
-/// Returns the size of the page of a drawing: that of its view box, or its width and height.
-fn page_size(root: Node) -> DVec2 {
-    let length = |name| {
-        let text = root.attribute(name).unwrap_or_default();
-        let number = text.trim().trim_end_matches("px").parse::<f64>().ok();
-        number.filter(|number| *number > 0.0 && number.is_finite())
-    };
-    view_box_size(root).unwrap_or(DVec2::new(
-        length("width").unwrap_or(DEFAULT_PAGE.x),
-        length("height").unwrap_or(DEFAULT_PAGE.y),
-    ))
-}
-
-/// Returns the width and height of the view box of an element.
-fn view_box_size(node: Node) -> Option<DVec2> {
-    let numbers = node.attribute("viewBox")?;
-    let numbers = numbers
-        .split([' ', ',', '\n', '\t', '\r'])
-        .filter(|part| !part.is_empty());
-    let numbers: Vec<f64> = numbers.filter_map(|part| part.parse().ok()).collect();
-    match numbers.as_slice() {
-        &[_, _, w, h] if w > 0.0 && h > 0.0 && (w + h).is_finite() => Some(DVec2::new(w, h)),
-        _ => None,
-    }
-}
-
-/// Attributes that replace those of an element in a copy.
-#[derive(Default)]
-struct Overrides {
-    /// Name under which the element is written, if not its own.
-    tag: Option<&'static str>,
-    /// Attributes with their values; empty values remove the attribute.
-    attributes: Vec<(&'static str, String)>,
-}
-
-impl Overrides {
-    fn get(&self, name: &str) -> Option<&str> {
-        let mut attributes = self.attributes.iter();
-        let found = attributes.find(|(known, _)| *known == name);
-        found.map(|(_, value)| value.as_str())
-    }
-}
-
 /// Writer of a plain drawing.
 struct PlainWriter<'p, 'c, 'd, 'a> {
     sources: &'p PlainSources<'p, 'c, 'd, 'a>,
@@ -233,7 +148,7 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
             } else {
                 name
             });
-        let style = ElementStyle::of(self, node, inherited, overrides);
+        let style = self.style(node, inherited, overrides);
         let is_root = node.parent_element().is_none();
         self.open_tag(node, tag, &style, inherited, overrides);
         let content = style.inherited_by_content(node, tag, inherited, overrides);
@@ -275,6 +190,17 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
 
     fn close_tag(&mut self, tag: &str) {
         self.drawing.text += &format!("</{tag}>");
+    }
+
+    /// Computes the values of the properties of an element.
+    fn style(
+        &mut self,
+        node: Node,
+        inherited: &InheritedStyle,
+        overrides: &Overrides,
+    ) -> ElementStyle {
+        let declarations = self.declarations(node);
+        ElementStyle::of(&declarations, node, inherited, overrides, self.lost)
     }
 
     /// Returns the declarations that apply to an element, in ascending precedence.

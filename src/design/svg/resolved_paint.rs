@@ -97,3 +97,9 @@ pub(super) fn affine(t: Transform) -> DAffine2 {
 fn rgb(colour: Color) -> Rgb {
     Rgb([colour.red, colour.green, colour.blue])
 }
+
+/// Returns whether a path has a visible fill.
+pub(super) fn is_filled(path: &usvg::Path) -> bool {
+    let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0);
+    path.is_visible() && fill.is_some()
+}

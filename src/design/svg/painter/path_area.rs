@@ -4,6 +4,7 @@ use super::SvgPainter;
 use crate::design::svg::error::SvgError;
 use crate::design::svg::ink_layers::{WindingRings, clip_rings, union};
 use crate::design::svg::plain::source_element;
+use crate::design::svg::resolved_paint::is_filled;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
 use usvg::{ClipPath, Group, Node, Path, Stroke, Transform, tiny_skia_path};
 
@@ -258,10 +259,4 @@ pub(in crate::design::svg) fn resolve_overlaps(
         Err(RegionsError::Empty | RegionsError::Size(_)) => Ok(Vec::new()), // no area
         Err(error) => Err(error.into()),
     }
-}
-
-/// Returns whether a path has a visible fill.
-pub(in crate::design::svg) fn is_filled(path: &Path) -> bool {
-    let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0);
-    path.is_visible() && fill.is_some()
 }

@@ -2,7 +2,8 @@
 //! the ids of the plain drawing.
 
 use super::element_style::{ElementStyle, PropertyValue};
-use super::{InheritedStyle, Overrides, PlainWriter, plain_id, push_escaped};
+use super::inherited::{InheritedStyle, Overrides};
+use super::{PlainWriter, plain_id, push_escaped};
 use crate::design::svg::css::properties::is_presentation_attribute;
 use crate::design::svg::css::syntax::find_outside_brackets;
 use crate::design::svg::css::transforms::{ReferenceBox, TransformProperties, affine_map};

@@ -1,9 +1,10 @@
 //! Expands copies (`use`) into groups, and symbols into nested drawings (SVG 2, section 5.5).
 
+use super::PlainWriter;
 use super::attributes::href;
 use super::element_style::ElementStyle;
+use super::inherited::{InheritedStyle, Overrides, view_box_size};
 use super::kinds::ElementKind;
-use super::{InheritedStyle, Overrides, PlainWriter, view_box_size};
 use crate::design::svg::css::math::{PercentageBasis, evaluate};
 use crate::design::svg::error::SvgError;
 use crate::design::svg::lost_features::element_label;
@@ -20,7 +21,7 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
             return Ok(());
         };
         self.count(node)?;
-        let style = ElementStyle::of(self, node, inherited, &Overrides::default());
+        let style = self.style(node, inherited, &Overrides::default());
         // Copies of elements that take paints from the copy are left to `usvg`.
         if takes_context_paint(target) {
             self.open_tag(node, "use", &style, inherited, &Overrides::default());
@@ -125,7 +126,7 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
         mut overrides: Overrides,
     ) -> Result<(), SvgError> {
         self.count(symbol)?;
-        let style = ElementStyle::of(self, symbol, inherited, &overrides);
+        let style = self.style(symbol, inherited, &overrides);
         for name in ["width", "height"] {
             let is_set = |name: &str| style.values.get(name).is_some_and(|v| !v.text.is_empty());
             if overrides.get(name).is_none() && !is_set(name) {

@@ -1,6 +1,6 @@
 //! Values of the properties of one element: presentation attributes overridden by declarations.
 
-use super::{InheritedStyle, Overrides, PlainWriter, view_box_size};
+use super::inherited::{InheritedStyle, Overrides, view_box_size};
 use crate::design::svg::css::math::{LengthContext, PercentageBasis, evaluate, plain_lengths};
 use crate::design::svg::css::properties::{
     Property, ValueContext, ValueType, has_geometry, is_presentation_attribute, longhands,
@@ -10,7 +10,7 @@ use crate::design::svg::css::syntax::{Declaration, components};
 use crate::design::svg::css::variables::{
     Variables, computed_variables, has_references, substitute,
 };
-use crate::design::svg::lost_features::element_label;
+use crate::design::svg::lost_features::{LostFeatures, element_label};
 use crate::geometry::DVec2;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -37,16 +37,17 @@ pub(super) struct ElementStyle {
 const INHERITING: [&str; 2] = ["inherit", "unset"];
 
 impl ElementStyle {
-    /// Computes the values of an element. Unsupported properties are reported.
-    pub(super) fn of<'d, 'a>(
-        writer: &mut PlainWriter<'_, '_, 'd, 'a>,
-        node: Node<'d, 'a>,
+    /// Computes the values of an element from the declarations that apply to it, in ascending
+    /// precedence. Unsupported properties are added to `lost`.
+    pub(super) fn of(
+        declarations: &[Declaration],
+        node: Node,
         inherited: &InheritedStyle,
         overrides: &Overrides,
+        lost: &mut LostFeatures,
     ) -> Self {
-        let declarations = writer.declarations(node);
-        let variables = variables(&declarations, &inherited.variables);
-        let declared = declared_values(&declarations, &variables);
+        let variables = variables(declarations, &inherited.variables);
+        let declared = declared_values(declarations, &variables);
         let mut style = Self {
             values: BTreeMap::new(),
             variables,
@@ -66,7 +67,7 @@ impl ElementStyle {
             let value = style.values.remove(name);
             if value.is_some_and(|value| !value.text.starts_with("none")) {
                 let feature = name.trim_end_matches("-name");
-                writer.lost.ignore(feature, &element_label(node));
+                lost.ignore(feature, &element_label(node));
             }
         }
         style

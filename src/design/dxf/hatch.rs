@@ -4,13 +4,14 @@
 //! The hatch style says which loops count; the even-odd rule decides what they enclose. Patterns
 //! are drawn as flat fills and gradients in their mean colour.
 
-use super::{AreaLoops, PolylineVertex, polyline_curves, positive_angle};
+use super::curve::positive_angle;
+use super::curve::{AreaLoops, DxfCurve, EllipseArc};
+use super::error::EntityFault;
+use super::pairs::GroupPair;
+use super::polyline::{PolylineVertex, polyline_curves};
+use super::record::{DxfRecord, points};
+use super::spline;
 use crate::colour::Rgb;
-use crate::design::dxf::curve::{DxfCurve, EllipseArc};
-use crate::design::dxf::error::EntityFault;
-use crate::design::dxf::pairs::GroupPair;
-use crate::design::dxf::record::{DxfRecord, points};
-use crate::design::dxf::spline;
 use crate::geometry::{DVec2, FillRule};
 use glam::DAffine2;
 use std::f64::consts::TAU;
@@ -218,7 +219,7 @@ pub(super) fn replaced_fill(record: &DxfRecord) -> Result<Option<ReplacedFill>, 
     }
     // MPOLYGON stores the flag of a solid fill under another group code.
     let solid = if record.kind == b"MPOLYGON" { 71 } else { 70 };
-    let name = crate::design::dxf::encoding::decode(record.text(2));
+    let name = super::encoding::decode(record.text(2));
     if record.integer(solid)? != 0 || name.eq_ignore_ascii_case("SOLID") {
         return Ok(None);
     }
