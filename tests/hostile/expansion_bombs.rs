@@ -52,7 +52,7 @@ fn slow_drawings_are_simplified() {
         (
             "heap.svg",
             format!("<g opacity=\".5\">{}</g>", overlapping_squares(10_000)),
-            "shown approximately",
+            "painted approximately",
         ),
         (
             "long.svg",

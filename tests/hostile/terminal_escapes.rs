@@ -49,7 +49,7 @@ fn hostile_files() -> Vec<(&'static str, String, &'static str)> {
         (
             "only.dxf",
             "0\nSECTION\n2\nENTITIES\n0\n\u{1b}[31mTEXT\n8\n0\n0\nENDSEC\n0\nEOF\n".to_owned(),
-            "only 1",
+            "1 \\u{1b}[31mTEXT left out",
         ),
         (
             "spline.dxf",
