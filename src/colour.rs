@@ -187,6 +187,9 @@ pub struct StrokeStyle {
     pub width: f64,
     /// Shape of the corners of the stroke.
     pub join: StrokeJoin,
+    /// Whether the fill is drawn over the stroke, so that only the outer half of the stroke is
+    /// visible (`paint-order: stroke` in SVG).
+    pub is_below_fill: bool,
 }
 
 /// Shape of the corners of a stroke.
@@ -204,7 +207,8 @@ pub enum StrokeJoin {
 
 impl StrokeStyle {
     /// Interpolates between the strokes at t = 0 and t = 1. The width changes linearly and the
-    /// paint as in [`Paint::mixed`]; the corner shape switches at t = 0.5. If one of `ends` is
+    /// paint as in [`Paint::mixed`]; the corner shape and the order of stroke and fill switch at
+    /// t = 0.5. If one of `ends` is
     /// `None`, it counts as the other stroke with width 0. Returns `None` if both are. `t` is
     /// clamped to [0, 1].
     #[must_use]
@@ -221,6 +225,11 @@ impl StrokeStyle {
             paint: a.paint.mixed(b.paint, t),
             width: a.width * (1.0 - t) + b.width * t,
             join: if t < 0.5 { a.join } else { b.join },
+            is_below_fill: if t < 0.5 {
+                a.is_below_fill
+            } else {
+                b.is_below_fill
+            },
         })
     }
 }
@@ -331,6 +340,7 @@ mod tests {
             paint: Rgb([1, 2, 3]).into(),
             width: 4.0,
             join: StrokeJoin::Round,
+            is_below_fill: false,
         };
         assert_eq!(StrokeStyle::interpolated([None, None], 0.5), None);
         assert_eq!(

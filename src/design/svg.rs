@@ -30,6 +30,7 @@ mod ink_layers;
 mod lost_features;
 mod names;
 mod opacity_groups;
+mod own_outlines;
 mod page_edge;
 mod paint_layers;
 mod painter;
@@ -105,6 +106,7 @@ pub(super) fn read(
         document: &document,
     };
     let mut painted = painter::paint_tree(&tree, &read_options)?;
+    own_outlines::attach_outlines(&mut painted.shapes, read_options.tolerance);
     if read_options.element.is_none() {
         page_edge::cut_at_page(&mut painted, size);
     }

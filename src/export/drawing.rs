@@ -282,11 +282,16 @@ impl Drawing {
                 next = layers.next();
             }
             let (paint, gradient) = ink;
-            if let Some(line) = line {
-                self.push_rings(outline.clone(), paint, gradient, view);
-                self.push_line(outline, line, view);
-            } else {
-                self.push_rings(outline, paint, gradient, view);
+            match line {
+                Some(line) if line.is_below_fill => {
+                    self.push_line(outline.clone(), line, view);
+                    self.push_rings(outline, paint, gradient, view);
+                }
+                Some(line) => {
+                    self.push_rings(outline.clone(), paint, gradient, view);
+                    self.push_line(outline, line, view);
+                }
+                None => self.push_rings(outline, paint, gradient, view),
             }
         }
     }
@@ -422,6 +427,7 @@ mod tests {
             paint: red,
             width: 0.02,
             join: StrokeJoin::Round,
+            is_below_fill: false,
         };
         lined.layers[0].lines = [Some(line), None];
         drawing.push_figure(&lined, 0.0, &blue(), &view());

@@ -138,7 +138,9 @@ fn gradient_definition(k: usize, gradient: &Gradient) -> String {
 
 /// Returns a path with a stroke and no fill.
 fn drawn_line(outline: &OutlinePath, line: &StrokeStyle) -> String {
-    let StrokeStyle { paint, width, join } = line;
+    let StrokeStyle {
+        paint, width, join, ..
+    } = line;
     let join = match join {
         StrokeJoin::Mitre(limit) => format!("miter\" stroke-miterlimit=\"{}", ShortNumber(*limit)),
         StrokeJoin::Round => "round".to_owned(),

@@ -110,6 +110,7 @@ mod tests {
             paint: Rgb([0; 3]).into(),
             width: 2.0,
             join,
+            is_below_fill: false,
         };
         let (mut positions, mut indices) = (Vec::new(), Vec::new());
         push_stroke(&[ring], &line, DVec2::ZERO, &mut positions, &mut indices);

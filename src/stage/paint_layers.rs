@@ -128,11 +128,15 @@ impl LayerMesh {
             }
         }
         for (inked, ink) in groups.iter().zip(inks) {
+            let line = StrokeStyle::interpolated(inked.strokes, inked.t);
+            if let Some(line) = line.filter(|line| line.is_below_fill) {
+                layers.draw(&inked.rings, &line);
+            }
             match &self.faces {
                 Some(faces) => layers.indices.extend(&faces.corners[inked.layer]),
                 None => layers.fill(&inked.rings, ink),
             }
-            if let Some(line) = StrokeStyle::interpolated(inked.strokes, inked.t) {
+            if let Some(line) = line.filter(|line| !line.is_below_fill) {
                 layers.draw(&inked.rings, &line);
             }
         }

@@ -1,7 +1,7 @@
 //! Flattens stacked shapes to areas that do not overlap, each with the paint that is visible there.
 
 use super::ink_layers::{WindingRings, clip_rings, difference};
-use super::shape::SvgShape;
+use super::shape::{SvgShape, in_drawing_order};
 use crate::colour::{Gradient, Paint, Rgb};
 use crate::geometry::Bounds;
 
@@ -113,7 +113,7 @@ fn over(above: Paint, below: Paint) -> Paint {
 }
 
 impl SvgShape {
-    /// Returns the fill, if visible, and the attached stroke, if any, as areas.
+    /// Returns the fill, if visible, and the attached stroke, if any, as areas, the lower first.
     fn parts(&self) -> impl Iterator<Item = FlatArea> {
         let fill = (self.paint.opacity > 0.0).then(|| FlatArea {
             rings: self.rings.clone(),
@@ -125,6 +125,11 @@ impl SvgShape {
             paint: edge.line.paint,
             gradient: None,
         });
-        fill.into_iter().chain(stroke)
+        let edge = self.stroke.as_ref();
+        in_drawing_order(
+            fill,
+            stroke,
+            edge.is_some_and(|edge| edge.line.is_below_fill),
+        )
     }
 }

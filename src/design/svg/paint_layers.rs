@@ -73,12 +73,15 @@ struct LayerKey {
     name: String,
     paint: PaintKey,
     gradient: Option<Vec<u64>>,
-    /// Paint, width and join of the stroke along the outlines.
-    line: Option<(PaintKey, u64, (u8, u64))>,
+    /// Stroke along the outlines.
+    line: Option<StrokeKey>,
 }
 
 /// Colour and opacity of a paint, comparable bit by bit.
 type PaintKey = ([u8; 3], u64);
+
+/// Paint, width, join and order of a stroke, comparable bit by bit.
+type StrokeKey = (PaintKey, u64, (u8, u64), bool);
 
 impl LayerKey {
     fn of(shape: &SvgShape) -> Self {
@@ -89,7 +92,8 @@ impl LayerKey {
                 StrokeJoin::Round => (1, 0),
                 StrokeJoin::Bevel => (2, 0),
             };
-            (bits(edge.line.paint), edge.line.width.to_bits(), join)
+            let width = edge.line.width.to_bits();
+            (bits(edge.line.paint), width, join, edge.line.is_below_fill)
         });
         Self {
             is_text: shape.is_text,

@@ -339,8 +339,7 @@ impl SvgPainter<'_> {
         let stroke = stroke.and_then(|stroke| paint_source(stroke.paint(), stroke.opacity()));
         self.painted.bare_strokes += usize::from(fill.is_none() && stroke.is_some());
         let fills_first = path.paint_order() == PaintOrder::FillAndStroke;
-        if fills_first
-            && clip.is_none()
+        if clip.is_none()
             && let Some(PaintSource::Solid(stroke)) = &stroke
             && self.add_stroked_fill(path, fill.as_ref(), *stroke)?
         {

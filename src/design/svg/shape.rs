@@ -35,19 +35,34 @@ impl SvgShape {
         self.rings.iter().map(Vec::len).sum()
     }
 
-    /// Splits the shape into its fill, if visible, and its attached stroke, if any.
+    /// Splits the shape into its fill, if visible, and its attached stroke, if any, the lower first.
     pub(super) fn split_stroke(mut self) -> impl Iterator<Item = Self> {
-        let (edge, fill) = (self.stroke.take(), self);
+        let edge = self.stroke.take();
+        let is_stroke_below = edge.as_ref().is_some_and(|edge| edge.line.is_below_fill);
         let stroke = edge.map(|edge| Self {
             rings: edge.rings,
             paint: edge.line.paint,
             gradient: None,
             is_stroke: true,
-            is_text: fill.is_text,
+            is_text: self.is_text,
             stroke: None,
-            name: fill.name.clone(),
+            name: self.name.clone(),
         });
-        let fill = (fill.paint.opacity > 0.0).then_some(fill);
-        fill.into_iter().chain(stroke)
+        let fill = (self.paint.opacity > 0.0).then_some(self);
+        in_drawing_order(fill, stroke, is_stroke_below)
     }
+}
+
+/// Arranges what is made of the fill and of the stroke of a shape, the lower first.
+pub(super) fn in_drawing_order<T>(
+    fill: Option<T>,
+    stroke: Option<T>,
+    is_stroke_below: bool,
+) -> impl Iterator<Item = T> {
+    let [lower, upper] = if is_stroke_below {
+        [stroke, fill]
+    } else {
+        [fill, stroke]
+    };
+    lower.into_iter().chain(upper)
 }

@@ -4,7 +4,7 @@
 use super::error::SvgError;
 use super::ink_layers::{InkLayers, WindingRings};
 use super::painter::PaintedDrawing;
-use super::shape::SvgShape;
+use super::shape::{SvgShape, in_drawing_order};
 use crate::colour::{Paint, Rgb};
 use crate::geometry::{DVec2, FillRule, Regions};
 
@@ -36,15 +36,19 @@ pub(super) fn silhouette(
     Ok(Regions::from_rings(&layers.compose(), FillRule::NonZero)?)
 }
 
-/// Returns the painted areas of a shape, each with its paint. The first is the area of the shape
-/// itself, a fill or a stroke; the second is the stroke attached to it, if there is one. Strokes
-/// are omitted if `strokes` is false. The first area is also omitted if its opacity is 0.
+/// Returns the painted areas of a shape, each with its paint, the lower first: that of the shape
+/// itself (a fill or a stroke) and the stroke attached to it, if there is one. Strokes are omitted
+/// if `strokes` is false; the area of the shape is also omitted if its opacity is 0.
 fn visible_areas(shape: &SvgShape, strokes: bool) -> impl Iterator<Item = (&WindingRings, &Paint)> {
     let is_visible = (strokes || !shape.is_stroke) && shape.paint.opacity > 0.0;
     let fill = is_visible.then_some((&shape.rings, &shape.paint));
     let edge = shape.stroke.as_ref().filter(|_| strokes);
-    fill.into_iter()
-        .chain(edge.map(|edge| (&edge.rings, &edge.line.paint)))
+    let stroke = edge.map(|edge| (&edge.rings, &edge.line.paint));
+    in_drawing_order(
+        fill,
+        stroke,
+        edge.is_some_and(|edge| edge.line.is_below_fill),
+    )
 }
 
 fn is_white(paint: &Paint) -> bool {

@@ -3,7 +3,7 @@
 use super::ink_layers::WindingRings;
 use crate::colour::{Paint, StrokeJoin, StrokeStyle};
 use crate::geometry::DVec2;
-use usvg::{LineJoin, Path, Transform, tiny_skia_path};
+use usvg::{LineJoin, PaintOrder, Path, Transform, tiny_skia_path};
 
 /// Stroke along the rings of a shape.
 pub(super) struct ShapeStroke {
@@ -50,6 +50,7 @@ pub(super) fn uniform_stroke(path: &Path, t: Transform, paint: Paint) -> Option<
         paint,
         width: scale * f64::from(stroke.width().get()),
         join,
+        is_below_fill: path.paint_order() == PaintOrder::StrokeAndFill,
     })
 }
 

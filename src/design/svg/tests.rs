@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::colour::{Paint, Rgb};
+use crate::design::paint_layer::PaintLayer;
 use crate::geometry::Regions;
 use std::time::{Duration, Instant};
 
@@ -571,7 +572,7 @@ fn layers_keep_strokes_opacity_and_order() {
     let body = r##"<g opacity="0.5"><rect width="20" height="20" fill="#102030"/>
         <rect x="10" width="20" height="20" fill="#405060" fill-opacity="1"/></g>
         <rect x="50" y="50" width="20" height="20" fill="white" stroke="#ff0000"
-        stroke-width="2" stroke-opacity="0.25" paint-order="stroke"/>"##;
+        stroke-width="2" stroke-opacity="0.25" stroke-dasharray="20" paint-order="stroke"/>"##;
     let found = layers(body);
     let paints: Vec<Paint> = found.iter().map(|layer| layer.0).collect();
     let expected = [
@@ -588,7 +589,7 @@ fn layers_keep_strokes_opacity_and_order() {
     assert_eq!((cloud.len(), cloud[0].regions.len()), (1, 1));
     // Covered areas of shapes in a translucent group are removed.
     assert_near(found[0].1, 200.0);
-    assert_near(found[2].1, 22.0 * 22.0 - 18.0 * 18.0);
+    assert_near(found[2].1, 2.0 * 20.0 * 2.0);
 }
 
 #[test]
@@ -644,3 +645,5 @@ fn a_drawing_without_colours_has_no_layers() {
         );
     }
 }
+
+mod outlines;

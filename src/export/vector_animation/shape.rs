@@ -165,6 +165,7 @@ impl PosedShape {
                     paint,
                     width,
                     join: *join,
+                    is_below_fill: false,
                 },
             },
             ShapeForm::Bars => DrawingItem::Bars {
@@ -347,6 +348,7 @@ mod tests {
             paint,
             width: 3.5,
             join: StrokeJoin::Mitre(4.0),
+            is_below_fill: false,
         };
         let colour = paint.colour;
         for item in [

@@ -140,6 +140,7 @@ fn items_at(x: f64) -> Vec<DrawingItem> {
             paint,
             width: 2.0,
             join,
+            is_below_fill: false,
         },
     };
     let radial = GradientGeometry::Radial {
