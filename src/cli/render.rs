@@ -3,19 +3,21 @@
 //! The extension of the output file determines the kind of output. Numbered images show the film
 //! once, forwards; an animation of a project that plays back and forth also contains the way back.
 
+use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use crate::colour::Rgb;
+use crate::design::ImportNote;
 use crate::export::{
     Aspect, Camera, Captions, Drawing, ExportError, ExportTarget, FilmKind, FilmPreset,
     FilmPresets, FilmSpec, LayoutPreset, MethodRow, PictureLayout, PixelSize, PlaneView, StillKind,
     comparison_sheet, contact_sheet, even_times, extension_list, framing, map_sheet, write_film,
     write_still,
 };
-use crate::project::Project;
+use crate::project::{LoadedProject, Project};
 use crate::settings::{Choice, choice_keys};
 use crate::space::{MapLayout, WeightMap};
 use crate::transition::PlayMode;
@@ -218,7 +220,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
         let (drawing, notes) = draw_map(args, grid, &overall)?;
         write_still(&drawing, *kind, path).map_err(CliError::failed)?;
         drop(terminal);
-        notes.iter().for_each(|note| output::message(note));
+        report_notes(notes);
         report_written(std::slice::from_ref(path));
         return Ok(());
     }
@@ -238,8 +240,31 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     };
     // Dropping the terminal clears the progress line before the message is printed.
     drop(terminal);
+    let segments = opened.sequence.segments().iter();
+    let built = segments.flat_map(|segment| segment.notes().iter().map(ToString::to_string));
+    report_notes(import_notes(&opened.loaded).chain(built));
     report_written(&written);
     Ok(())
+}
+
+/// Returns the notes on the import of all designs, each with the name of its design.
+fn import_notes(loaded: &LoadedProject) -> impl Iterator<Item = String> {
+    let designs = loaded.designs.iter();
+    designs.flat_map(|design| {
+        let named = |note: &ImportNote| format!("{}: {note}", design.name);
+        design.notes.iter().map(named)
+    })
+}
+
+/// Prints notes, each once: a design may take part in several transitions.
+fn report_notes(notes: impl IntoIterator<Item = String>) {
+    let mut printed = HashSet::new();
+    for note in notes {
+        if !printed.contains(&note) {
+            output::message(&note);
+            printed.insert(note);
+        }
+    }
 }
 
 /// Single image that the flags request.
@@ -362,7 +387,7 @@ fn draw_still(
     })
 }
 
-/// Draws the map of all designs. Also returns the notes of the space.
+/// Draws the map of all designs. Also returns the notes of the designs and of the space.
 fn draw_map(
     args: &RenderArgs,
     grid: [usize; 2],
@@ -378,10 +403,8 @@ fn draw_map(
     let background = background_of(args, &loaded.project);
     let style = &loaded.project.style;
     let drawing = map_sheet(&space, &map, style, grid, args.size, background);
-    Ok((
-        drawing,
-        space.notes().iter().map(ToString::to_string).collect(),
-    ))
+    let notes = space.notes().iter().map(ToString::to_string);
+    Ok((drawing, import_notes(&loaded).chain(notes).collect()))
 }
 
 /// Writes a film or numbered images; returns the paths of the written files.

@@ -4,7 +4,7 @@
 use std::fs;
 use std::io::BufReader;
 
-use crate::cli_fixture::{CliFixture, read_image};
+use crate::cli_fixture::{CliFixture, read_image, stderr};
 
 #[test]
 fn an_image_is_written_as_png_or_svg() {
@@ -25,6 +25,26 @@ fn an_image_is_written_as_png_or_svg() {
     let svg = fs::read_to_string(cli.path("x.svg")).expect("text");
     assert!(usvg::Tree::from_str(&svg, &usvg::Options::default()).is_ok());
     assert_eq!(cli.file_names(".").len(), 6, "no temporary file is left");
+}
+
+#[test]
+fn notes_on_the_import_and_the_transition_are_printed() {
+    let cli = CliFixture::new();
+    let lossy = r#"<svg xmlns="http://www.w3.org/2000/svg" width="60" height="40">
+        <rect id="soft" width="30" height="30" filter="blur(2px)"/></svg>"#;
+    cli.write("lossy.svg", lossy);
+    let lines = |designs: &str| {
+        let output = cli.run(&format!("render {designs} --quality draft --out x.svg"));
+        let lines = stderr(&output);
+        lines.lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(lines("a.svg b.svg --at 0"), ["wrote x.svg"]);
+    let expected = ["lossy: filter: ignored (#soft)", "wrote x.svg"];
+    // A design that is used twice is reported once.
+    assert_eq!(lines("lossy.svg lossy.svg --at 0"), expected);
+    assert_eq!(lines("a.svg lossy.svg b.svg --map 2x2"), expected);
+    let field = lines("a.svg b.svg --at 0 --method field --cells 64 --metric city-block");
+    assert!(field[0].contains("boundary runs between cells"), "{field:?}");
 }
 
 #[test]
