@@ -27,6 +27,7 @@ mod silhouette;
 mod sniff;
 mod source;
 mod svg;
+mod text_encoding;
 mod truss;
 mod unit;
 

@@ -19,7 +19,7 @@ use std::path::Path;
 pub enum Format {
     /// PNG, JPEG, BMP or WebP.
     Picture(ImageFormat),
-    /// SVG as UTF-8 text.
+    /// SVG, plain or compressed with gzip.
     Svg,
     /// DXF, text or binary.
     Dxf,
@@ -55,7 +55,7 @@ impl Format {
             Self::Picture(ImageFormat::Bmp) => ("BMP", &["bmp"]),
             Self::Picture(ImageFormat::WebP) => ("WebP", &["webp"]),
             Self::Picture(_) => ("PNG", &["png"]),
-            Self::Svg => ("SVG", &["svg"]),
+            Self::Svg => ("SVG", &["svg", "svgz"]),
             Self::Dxf => ("DXF", &["dxf"]),
             Self::Obj => ("OBJ", &["obj"]),
             Self::Polygons => ("polygons as JSON or GeoJSON", &["json", "geojson"]),

@@ -2,11 +2,12 @@
 //! recognise the format of the file and call its importer.
 
 use super::error::{ImportError, ImportProblem};
-use super::form::Design;
+use super::form::{Design, ImportedOutlines};
 use super::format::Format;
 use super::options::ImportOptions;
 use super::sniff::sniff;
 use super::source::DesignSource;
+use super::text_encoding::{plain_bytes, xml_text};
 use super::truss::Truss;
 use super::{dxf, lettering, obj, polygons, silhouette, svg};
 use crate::io::read;
@@ -99,6 +100,7 @@ fn read(
     }
     // The file reader limits the size of a file, but a caller may pass bytes from elsewhere.
     check_size(bytes)?;
+    let bytes = &*plain_bytes(bytes);
     let format = sniff(bytes)?;
     if let (Some(id), true) = (element, format != Format::Svg) {
         return Err(ImportProblem::NoElements { id: id.to_owned() });
@@ -110,13 +112,25 @@ fn read(
         Format::Svg => Design {
             // The box of a single element is that of its geometry.
             has_page: element.is_none(),
-            ..svg::read(text(bytes)?, element, options)?.into_design(name)
+            ..read_drawing(bytes, element, options)?.into_design(name)
         },
         Format::Dxf => dxf::read(bytes, options)?.into_design(name),
         Format::Obj => Design::new(name, obj::read(text(bytes)?)?),
         Format::Polygons => polygons::read(text(bytes)?)?.into_design(name),
         Format::Truss => Design::new(name, Truss::from_json(text(bytes)?)?),
     })
+}
+
+/// Imports an SVG drawing, in the encoding that it declares.
+fn read_drawing(
+    bytes: &[u8],
+    element: Option<&str>,
+    options: &ImportOptions,
+) -> Result<ImportedOutlines, ImportProblem> {
+    let decoded = xml_text(bytes).map_err(|line| ImportProblem::NotUtf8 { line })?;
+    let mut outlines = svg::read(&decoded.text, element, options)?;
+    outlines.notes.extend(decoded.note);
+    Ok(outlines)
 }
 
 /// Returns the bytes as text without a byte order mark.

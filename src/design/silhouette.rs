@@ -79,7 +79,7 @@ pub enum SilhouetteError {
 
 /// Maximum number of pixels of a picture (resource limit: removing specks needs up to 20 bytes per
 /// pixel, 1 GB in total; separating flat colours needs half as much again).
-const MAX_PIXELS: u64 = 8192 * 6144;
+pub(in crate::design) const MAX_PIXELS: u64 = 8192 * 6144;
 
 /// Maximum number of boundary points before simplification (resource limit: a 2048 × 2048
 /// photograph of gravel has about this many).

@@ -40,6 +40,7 @@ mod resolved_paint;
 mod shape;
 mod silhouette;
 mod stroke;
+mod xml_entities;
 mod xml_limits;
 mod z_order;
 
@@ -49,17 +50,20 @@ pub(super) use ink_layers::{WindingRings, boolean, union};
 use super::flatten::MIN_TOLERANCE;
 use super::form::ImportedOutlines;
 use super::options::ImportOptions;
+use super::text_encoding::{plain_bytes, xml_text};
 use crate::geometry::{Bounds, DVec2};
 use css::cascade::{StyleCascade, read_sheets};
+use css::colours::paint_of_plain;
 use fonts::FontLookup;
-use lost_features::LostFeatures;
+use lost_features::{LostFeatures, element_label};
 use painter::SvgReadOptions;
-use plain::{ElementBoxes, PlainDrawing, PlainSources, plain_drawing, source_element};
+use plain::{ElementBox, ElementBoxes, PlainDrawing, PlainSources, plain_drawing, source_element};
 use report::SvgReport;
+use shape::SvgShape;
 use std::collections::HashMap;
-use std::io::Read;
 use std::sync::Mutex;
 use usvg::roxmltree::{self, Document, Node as Xml};
+use xml_entities::with_expanded_elements;
 
 /// Maximum number of element ids listed in an error (resource limit: about one line).
 const NAMED_IDS: usize = 8;
@@ -83,7 +87,8 @@ pub(super) fn read(
     element: Option<&str>,
     options: &ImportOptions,
 ) -> Result<ImportedOutlines, SvgError> {
-    let document = parse(text)?;
+    let text = with_expanded_elements(text)?;
+    let document = parse(&text)?;
     let top = match element {
         Some(id) => element_of(&document, id)?,
         None => document.root_element(),
@@ -109,6 +114,16 @@ pub(super) fn read(
     own_outlines::attach_outlines(&mut painted.shapes, read_options.tolerance);
     if read_options.element.is_none() {
         page_edge::cut_at_page(&mut painted, size);
+        if let Some(paint) = plain.background.as_deref().and_then(paint_of_plain) {
+            let background = SvgShape::rectangle(
+                Bounds {
+                    min: DVec2::ZERO,
+                    max: size,
+                },
+                paint,
+            );
+            painted.shapes.insert(0, background);
+        }
     }
     let regions = silhouette::silhouette(&painted, size, options.strokes)?;
     let report = SvgReport {
@@ -203,7 +218,7 @@ fn tree_of(
             boxes: &boxes,
         };
         let plain = plain_drawing(&sources, &mut lost)?;
-        let (tree, embedded) = usvg_tree(&plain, font_lookup, depth)?;
+        let (tree, embedded) = usvg_tree(&plain, document, font_lookup, depth)?;
         if !plain.lacks_boxes || pass == MAX_PASSES {
             let has_short_text = expansion.has_short_text;
             lost.extend(lost_sheets);
@@ -223,13 +238,18 @@ fn tree_of(
 /// Records the boxes of all elements in their own coordinates.
 fn measure(group: &usvg::Group, boxes: &mut ElementBoxes) {
     for node in group.children() {
-        let found = node.bounding_box();
-        let point = |x: f32, y: f32| DVec2::new(x.into(), y.into());
+        let bounds = |found: usvg::Rect| Bounds {
+            min: DVec2::new(found.left().into(), found.top().into()),
+            max: DVec2::new(found.right().into(), found.bottom().into()),
+        };
         if let Some(id) = source_element(node.id()) {
-            boxes.entry(id).or_insert(Bounds {
-                min: point(found.left(), found.top()),
-                max: point(found.right(), found.bottom()),
-            });
+            let (fill, stroke) = (node.bounding_box(), node.stroke_bounding_box());
+            // The group of a picture has the transform of its pixels.
+            let pixels = picture_transform(node);
+            let [fill, stroke] =
+                [fill, stroke].map(|found| found.transform(pixels).unwrap_or(found));
+            let (fill, stroke) = (bounds(fill), bounds(stroke));
+            boxes.entry(id).or_insert(ElementBox { fill, stroke });
         }
         if let usvg::Node::Group(inner) = node {
             measure(inner, boxes);
@@ -237,10 +257,21 @@ fn measure(group: &usvg::Group, boxes: &mut ElementBoxes) {
     }
 }
 
-/// Reads a plain drawing. Returns the tree and the features lost in embedded drawings. Text is laid
-/// out only if `font_lookup` is given.
+/// Returns the transform of the pixels of a picture to user units; the identity for other nodes.
+fn picture_transform(node: &usvg::Node) -> usvg::Transform {
+    match node {
+        usvg::Node::Group(group) if matches!(group.children(), [usvg::Node::Image(_)]) => {
+            group.transform()
+        }
+        _ => usvg::Transform::identity(),
+    }
+}
+
+/// Reads a plain drawing, whose pictures are those of `source`. Returns the tree and the features
+/// lost in embedded drawings. Text is laid out only if `font_lookup` is given.
 fn usvg_tree(
     plain: &PlainDrawing,
+    source: &Document,
     font_lookup: Option<&FontLookup>,
     depth: usize,
 ) -> Result<(usvg::Tree, LostFeatures), SvgError> {
@@ -250,22 +281,13 @@ fn usvg_tree(
     let lost = Mutex::new(LostFeatures::default());
     let options = usvg::Options {
         image_href_resolver: usvg::ImageHrefResolver {
-            resolve_data: Box::new(|kind, data, _| {
-                let font_lookup = font_lookup?;
-                let found = embedded_drawing(kind, &data, font_lookup, depth);
-                let mut lost = lost.lock().ok()?;
-                match found {
-                    Some((tree, inner)) => {
-                        lost.extend(inner);
-                        Some(usvg::ImageKind::SVG(tree))
-                    }
-                    None => {
-                        lost.ignore("embedded drawing that cannot be read", "<image>");
-                        None
-                    }
-                }
+            resolve_data: Box::new(|_, _, _| None), // plain drawings contain no data
+            resolve_string: Box::new(|id, _| {
+                let node = source.get_node(source_element(id)?)?;
+                let (image, lost_inside) = embedded_image(node, font_lookup, depth);
+                lost.lock().ok()?.extend(lost_inside);
+                image
             }),
-            resolve_string: Box::new(|_, _| None), // other files are never read
         },
         font_family: fonts::UNNAMED.to_owned(),
         font_resolver: text_fonts.map(FontLookup::resolver).unwrap_or_default(),
@@ -278,31 +300,45 @@ fn usvg_tree(
     Ok((tree, lost))
 }
 
-/// Unpacks a compressed drawing; returns `None` if it is damaged or larger than a file may be.
-fn unpacked_svgz(data: &[u8]) -> Option<Vec<u8>> {
-    let mut unpacked = Vec::new();
-    let limit = crate::io::read::MAX_FILE_BYTES;
-    let mut reader = flate2::read::GzDecoder::new(data).take(limit);
-    reader.read_to_end(&mut unpacked).ok()?;
-    Some(unpacked)
+/// Reads the picture or drawing that an image element contains as data. Also returns the features
+/// that are lost in it; if it cannot be read, that is the image itself.
+fn embedded_image(
+    node: Xml,
+    font_lookup: Option<&FontLookup>,
+    depth: usize,
+) -> (Option<usvg::ImageKind>, LostFeatures) {
+    let url = plain::href(node).and_then(|href| data_url::DataUrl::process(href.trim()).ok());
+    let data = url.and_then(|url| url.decode_to_vec().ok());
+    let data = data.map(|(data, _)| data).unwrap_or_default();
+    if image::guess_format(&data).is_ok() {
+        // The painter recognises the format.
+        let picture = usvg::ImageKind::PNG(data.into());
+        return (Some(picture), LostFeatures::default());
+    }
+    let drawing = font_lookup.and_then(|lookup| embedded_drawing(&data, lookup, depth));
+    match drawing {
+        Some((tree, lost)) => (Some(usvg::ImageKind::SVG(tree)), lost),
+        None => {
+            let mut lost = LostFeatures::default();
+            lost.ignore("embedded image that cannot be read", &element_label(node));
+            (None, lost)
+        }
+    }
 }
 
-/// Reads a drawing that is embedded as data. Returns `None` for pictures, and for drawings that
-/// cannot be read.
+/// Reads a drawing that is embedded as data. Returns `None` for drawings that cannot be read.
 fn embedded_drawing(
-    kind: &str,
     data: &[u8],
     font_lookup: &FontLookup,
     depth: usize,
 ) -> Option<(usvg::Tree, LostFeatures)> {
-    if depth == MAX_EMBEDDED || !matches!(kind, "image/svg+xml" | "text/plain" | "text/xml") {
+    if depth == MAX_EMBEDDED {
         return None;
     }
-    let unpacked = match data.starts_with(&[0x1f, 0x8b]) {
-        true => unpacked_svgz(data)?,
-        false => data.to_vec(),
-    };
-    let document = parse(std::str::from_utf8(&unpacked).ok()?).ok()?;
+    let plain = plain_bytes(data);
+    let decoded = xml_text(&plain).ok()?;
+    let text = with_expanded_elements(&decoded.text).ok()?;
+    let document = parse(&text).ok()?;
     let inner = tree_of(&document, font_lookup, depth + 1).ok()?;
     let mut lost = inner.lost;
     lost.extend(inner.embedded);

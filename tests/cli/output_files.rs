@@ -44,7 +44,10 @@ fn notes_on_the_import_and_the_transition_are_printed() {
     assert_eq!(lines("lossy.svg lossy.svg --at 0"), expected);
     assert_eq!(lines("a.svg lossy.svg b.svg --map 2x2"), expected);
     let field = lines("a.svg b.svg --at 0 --method field --cells 64 --metric city-block");
-    assert!(field[0].contains("boundary runs between cells"), "{field:?}");
+    assert!(
+        field[0].contains("boundary runs between cells"),
+        "{field:?}"
+    );
 }
 
 #[test]

@@ -4,12 +4,7 @@
 //! header names. Only Windows-1252 is decoded exactly; text that is valid UTF-8 is always read as
 //! UTF-8, because many programs write it into old files.
 
-/// Characters of the bytes 0x80 to 0x9f in Windows-1252; bytes without a character map to the
-/// control character of the same number, as browsers do.
-const WINDOWS_1252: [char; 32] = [
-    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
-    '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
-];
+use crate::design::text_encoding::from_windows_1252;
 
 /// Decodes a text value, including `\U+XXXX` escapes.
 pub(super) fn decode(bytes: &[u8]) -> String {
@@ -20,13 +15,6 @@ pub(super) fn decode(bytes: &[u8]) -> String {
     match text.contains(UNICODE_ESCAPE) {
         true => resolve_escapes(&text),
         false => text,
-    }
-}
-
-fn from_windows_1252(byte: u8) -> char {
-    match byte {
-        0x80..=0x9f => WINDOWS_1252[usize::from(byte - 0x80)],
-        _ => char::from(byte),
     }
 }
 

@@ -5,6 +5,7 @@
 //! may be written as plain attributes. It follows CSS Syntax 3, Selectors 4, Cascade 5, Values 4,
 //! Custom Properties 1, Color 5 and Transforms 2 as far as browsers draw them in static images.
 
+pub(super) mod basic_shapes;
 pub(super) mod cascade;
 pub(super) mod colours;
 pub(super) mod math;

@@ -7,6 +7,9 @@ use usvg::roxmltree::Node as Xml;
 /// Maximum number of elements that a note names (resource limit: about one line).
 const NAMED_ELEMENTS: usize = 3;
 
+/// Maximum number of features that are named (resource limit: one line each).
+const MAX_FEATURES: usize = 64;
+
 /// Features of a drawing that were ignored or replaced, with the elements that use them.
 #[derive(Debug, Default)]
 pub(super) struct LostFeatures(BTreeMap<(String, Option<&'static str>), LosingElements>);
@@ -31,7 +34,13 @@ impl LostFeatures {
     }
 
     fn add(&mut self, feature: &str, replacement: Option<&'static str>, element: &str) {
-        let elements = self.0.entry((feature.to_owned(), replacement)).or_default();
+        let key = (feature.to_owned(), replacement);
+        let is_known = self.0.contains_key(&key);
+        let key = match is_known || self.0.len() < MAX_FEATURES {
+            true => key,
+            false => ("other features".to_owned(), None),
+        };
+        let elements = self.0.entry(key).or_default();
         if elements.named.iter().any(|named| named == element) {
             return; // copies of an element count once
         }

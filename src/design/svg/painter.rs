@@ -4,6 +4,7 @@
 mod masks;
 mod path_area;
 mod patterns;
+mod pictures;
 
 use super::blending::blend_shapes;
 use super::error::SvgError;
@@ -96,6 +97,7 @@ pub(super) fn paint_tree(
         is_drawn: false,
         is_in_text: false,
         depth: 0,
+        picture_pixels_left: pictures::MAX_PICTURE_PIXELS,
     };
     painter.group(tree.root(), None, options.element.is_none())?;
     match options.element {
@@ -140,6 +142,8 @@ pub(super) struct SvgPainter<'b> {
     pub(super) is_in_text: bool,
     /// Number of patterns and embedded drawings around the current tree.
     depth: usize,
+    /// Number of pixels of pictures that may still be decoded.
+    picture_pixels_left: u64,
 }
 
 impl SvgPainter<'_> {
@@ -219,11 +223,10 @@ impl SvgPainter<'_> {
                 Node::Group(inner) => self.group(inner, clip, is_within)?,
                 Node::Path(path) if is_within => self.path(path, clip)?,
                 Node::Text(text) if is_within => self.text(text, clip)?,
-                Node::Image(image) if is_within => {
-                    if let (ImageKind::SVG(tree), true) = (image.kind(), image.is_visible()) {
-                        self.embedded(tree, image.abs_transform(), clip)?;
-                    }
-                }
+                Node::Image(image) if is_within && image.is_visible() => match image.kind() {
+                    ImageKind::SVG(tree) => self.embedded(tree, image.abs_transform(), clip)?,
+                    _ => self.picture(image, clip),
+                },
                 Node::Path(_) | Node::Image(_) | Node::Text(_) => {}
             }
             (self.element, self.group_name) = outer;
@@ -246,11 +249,16 @@ impl SvgPainter<'_> {
 
     /// Records that a feature of the current element is only approximated.
     pub(super) fn approximate(&mut self, feature: &str, replacement: &'static str) {
-        let label = match self.element {
+        let label = self.current_label();
+        self.painted.lost.replace(feature, replacement, &label);
+    }
+
+    /// Returns the description of the current element for notes.
+    fn current_label(&self) -> String {
+        match self.element {
             Some(id) => self.options.label(id),
             None => "<svg>".to_owned(),
-        };
-        self.painted.lost.replace(feature, replacement, &label);
+        }
     }
 
     /// Returns the shapes that `paint` adds, instead of adding them to the drawing.
@@ -429,7 +437,9 @@ impl SvgPainter<'_> {
         let Some(line) = line else {
             return Ok(false);
         };
-        let Some(cleaned) = self.simple_rings(path)? else {
+        let cleaned = self.simple_rings(path)?;
+        // A stroke without area inside is a dot, which is a shape itself.
+        let Some(cleaned) = cleaned.filter(|rings| !rings.is_empty()) else {
             return Ok(false);
         };
         let invisible = Paint {

@@ -6,6 +6,7 @@
 //! (see [`plain_id`]). Everything that the result lacks is reported.
 
 mod attributes;
+mod clip_shapes;
 mod copies;
 mod element_style;
 mod inherited;
@@ -16,6 +17,7 @@ use super::error::{MAX_ELEMENTS, SvgError};
 use super::expansion_limits::BrokenReferences;
 use super::lost_features::{LostFeatures, element_label};
 use crate::geometry::Bounds;
+pub(super) use attributes::href;
 use element_style::ElementStyle;
 use inherited::{InheritedStyle, Overrides};
 use kinds::ElementKind;
@@ -27,18 +29,31 @@ use usvg::roxmltree::{Document, Node, NodeId};
 /// the largest number of elements).
 const MAX_TEXT: usize = 100_000_000;
 
+/// Treatment of unsupported elements for which a `switch` offers other content.
+const FALLBACK: &str = "replaced by the other content of its <switch>";
+
 /// Drawing with plain attributes.
 pub(super) struct PlainDrawing {
     /// XML text.
     pub text: String,
     /// Elements whose strokes keep their width when the drawing is scaled.
     pub non_scaling: HashSet<NodeId>,
+    /// Colour of the page in the notation of plain attributes, if the root element has one.
+    pub background: Option<String>,
     /// Whether the transform of an element refers to its own box, which is not known yet.
     pub lacks_boxes: bool,
 }
 
 /// Boxes of elements in their own coordinates, which some transforms and clip paths refer to.
-pub(super) type ElementBoxes = HashMap<NodeId, Bounds>;
+pub(super) type ElementBoxes = HashMap<NodeId, ElementBox>;
+
+/// Bounding boxes of an element.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ElementBox {
+    pub fill: Bounds,
+    /// Box that includes the stroke.
+    pub stroke: Bounds,
+}
 
 /// Sources from which a drawing is rewritten.
 pub(super) struct PlainSources<'s, 'c, 'd, 'a> {
@@ -66,6 +81,7 @@ pub(super) fn plain_drawing(
         drawing: PlainDrawing {
             text: String::new(),
             non_scaling: HashSet::new(),
+            background: None,
             lacks_boxes: false,
         },
         definitions: String::new(),
@@ -134,8 +150,9 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
                 return Ok(());
             }
             ElementKind::Unsupported => {
-                if !kinds::has_fallback(node) {
-                    self.lost.ignore(name, &element_label(node));
+                match kinds::has_fallback(node) {
+                    true => self.lost.replace(name, FALLBACK, &element_label(node)),
+                    false => self.lost.ignore(name, &element_label(node)),
                 }
                 return Ok(());
             }

@@ -3,7 +3,7 @@
 use super::ink_layers::WindingRings;
 use super::stroke::ShapeStroke;
 use crate::colour::{Gradient, Paint};
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, DVec2};
 
 /// Area of one fill or of one stroke; or a fill together with the stroke along its outline.
 pub(super) struct SvgShape {
@@ -24,6 +24,21 @@ pub(super) struct SvgShape {
 }
 
 impl SvgShape {
+    /// Creates a rectangle without a name.
+    pub(super) fn rectangle(bounds: Bounds, paint: Paint) -> Self {
+        let Bounds { min, max } = bounds;
+        let corners = [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
+        Self {
+            rings: vec![corners.to_vec()],
+            paint,
+            gradient: None,
+            is_stroke: false,
+            is_text: false,
+            stroke: None,
+            name: String::new(),
+        }
+    }
+
     /// Returns the bounding box including the stroke, or `None` if there are no points.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         let edge = self.stroke.iter().flat_map(|edge| &edge.rings);

@@ -289,11 +289,79 @@ fn markers_are_drawn_as_shapes() {
 #[test]
 fn embedded_drawings_are_drawn_and_embedded_pictures_are_reported() {
     let body = r#"<image x="10" y="10" width="9" height="9" href="data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' width='9' height='9'%3E%3Cstyle%3E.a%7Bfill:rebeccapurple%7D%3C/style%3E%3Crect class='a' width='9' height='3'/%3E%3C/svg%3E"/>
-        <image id="photo" width="9" height="9" href="data:image/png;base64,AAAA"/>"#;
+        <image id="broken" width="9" height="9" href="data:image/png;base64,AAAA"/>
+        <image id="linked" width="9" height="9" href="photo.png"/>"#;
     let found = stroked(body, None).expect("an outline");
     assert_near(found.regions.area(), 27.0);
     let notes: Vec<_> = found.notes.iter().map(ToString::to_string).collect();
-    assert_eq!(notes, ["picture in the drawing: ignored (#photo)"]);
+    let expected = [
+        "embedded image that cannot be read: ignored (#broken)",
+        "picture in another file: ignored (#linked)",
+    ];
+    assert_eq!(notes, expected);
+}
+
+#[test]
+fn an_embedded_picture_becomes_a_rectangle_in_its_mean_colour() {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let picture = image::RgbaImage::from_fn(4, 2, |x, _| match x {
+        0 | 1 => image::Rgba([200, 0, 100, 255]),
+        2 => image::Rgba([0, 0, 100, 255]),
+        _ => image::Rgba([9, 9, 9, 0]),
+    });
+    picture
+        .write_to(&mut bytes, image::ImageFormat::Png)
+        .expect("encodes");
+    let escaped: String = bytes
+        .into_inner()
+        .iter()
+        .map(|b| format!("%{b:02x}"))
+        .collect();
+    let body = format!(
+        r#"<image id="photo" x="10" y="20" width="40" height="40" href="data:image/png,{escaped}"/>"#
+    );
+    let found = stroked(&body, None).expect("an outline");
+    // The picture is twice as wide as high and lies in the middle of its square.
+    let [layer] = found.paint_layers.as_slice() else {
+        panic!("one layer");
+    };
+    assert_near(layer.regions.area(), 40.0 * 20.0);
+    assert_eq!(layer.paint, Some(paint([133, 0, 100], 0.75)));
+    let note = found.notes[0].to_string();
+    assert_eq!(
+        note,
+        "picture: replaced by a rectangle in its mean colour (#photo)"
+    );
+}
+
+#[test]
+fn the_colour_of_the_page_lies_below_the_drawing() {
+    let text = format!(
+        r##"<svg {NS} viewBox="0 0 50 50" width="100" height="80" style="background: no-repeat #0a0b0c">
+        <rect width="10" height="10" fill="#ff0000"/></svg>"##
+    );
+    let found = super::read(&text, None, &ImportOptions::default()).expect("an outline");
+    let areas: Vec<_> = found
+        .paint_layers
+        .iter()
+        .map(|l| (l.paint, l.regions.area().round()))
+        .collect();
+    let expected = [
+        (Some(paint([10, 11, 12], 1.0)), 8000.0),
+        (Some(paint([255, 0, 0], 1.0)), 256.0),
+    ];
+    assert_eq!(areas, expected);
+}
+
+#[test]
+fn the_content_of_a_pattern_starts_at_the_corner_of_its_tile() {
+    let body = r##"<pattern id="p" patternUnits="userSpaceOnUse" x="5" y="2" width="20" height="20">
+        <rect width="10" height="20" fill="#00ff00"/></pattern>
+        <rect x="5" width="40" height="40" fill="url(#p)"/>"##;
+    let found = stroked(body, None).expect("an outline");
+    assert_near(found.regions.area(), 800.0);
+    assert_near(found.regions.bounds().min.x, 5.0);
+    assert_near(found.regions.bounds().max.x, 35.0);
 }
 
 #[test]
@@ -647,3 +715,4 @@ fn a_drawing_without_colours_has_no_layers() {
 }
 
 mod outlines;
+mod silence;

@@ -10,7 +10,7 @@ use std::collections::{HashMap, HashSet};
 
 /// Maximum number of bytes that all entity references expand into (resource limit: ample for
 /// drawings that store a style in an entity and use it for each shape).
-const MAX_EXPANDED: u64 = 64 << 20;
+pub(super) const MAX_EXPANDED: u64 = 64 << 20;
 
 /// Maximum number of comparisons of names, separately for attributes, namespaces and entities
 /// (resource limit: they take a fraction of a second, and 20,000 attributes of one element are
@@ -110,11 +110,11 @@ fn check_entities(text: &str) -> Result<(), SvgError> {
 }
 
 /// Text with which an entity declaration starts.
-const DECLARATION: &str = "<!ENTITY";
+pub(super) const DECLARATION: &str = "<!ENTITY";
 
 /// Parses name and value of an entity from the text after [`DECLARATION`]. The value is `None` if
 /// it does not end before the next declaration.
-fn entity(declaration: &str) -> Option<(&str, Option<&str>)> {
+pub(super) fn entity(declaration: &str) -> Option<(&str, Option<&str>)> {
     let rest = declaration.trim_start();
     // The parser treats parameter entities ("%") like other entities.
     let rest = rest.strip_prefix('%').unwrap_or(rest).trim_start();

@@ -2,6 +2,7 @@
 
 use super::math::{LengthContext, PercentageBasis, evaluate};
 use super::syntax::{components, split_outside_brackets};
+use crate::colour::{Paint, Rgb};
 use color::{AlphaColor, ColorSpaceTag, DynamicColor, HueDirection, Rgba8, Srgb, parse_color};
 use std::str::FromStr;
 
@@ -39,6 +40,17 @@ pub(in crate::design::svg) fn plain_colour(
     parser.colour(text, 0).map(plain_notation)
 }
 
+/// Returns the paint of a colour in the notation of [`plain_colour`]; `None` if it is transparent.
+pub(in crate::design::svg) fn paint_of_plain(text: &str) -> Option<Paint> {
+    let colour: AlphaColor<Srgb> = parse_color(text).ok()?.to_alpha_color();
+    let Rgba8 { r, g, b, .. } = colour.to_rgba8();
+    let opacity = f64::from(colour.components[3]);
+    (opacity > 0.0).then_some(Paint {
+        colour: Rgb([r, g, b]),
+        opacity,
+    })
+}
+
 /// Writes a colour in sRGB; components outside of the gamut are clipped, as in browsers.
 fn plain_notation(colour: DynamicColor) -> String {
     let colour: AlphaColor<Srgb> = colour.to_alpha_color();
@@ -60,8 +72,8 @@ impl ColourParser<'_> {
         if depth > MAX_DEPTH {
             return None;
         }
-        // SVG 1.1 allows an ICC colour after the sRGB colour. Both spellings of grey are valid.
-        let text = text.split(" icc-color(").next().unwrap_or(text).trim();
+        let text = text.trim();
+        // Both spellings of grey are valid.
         let lower = text.to_ascii_lowercase().replace("grey", "gray");
         if lower == "currentcolor" {
             return parse_color(self.current).ok();
@@ -82,6 +94,7 @@ impl ColourParser<'_> {
             }
             return match arguments.trim_start().strip_prefix("from ") {
                 Some(relative) => self.relative(function, relative, depth),
+                None if mixes_units(function, arguments) => None,
                 None => parse_color(&self.absolute(function, arguments)).ok(),
             };
         }
@@ -231,6 +244,14 @@ fn replace_word(text: &str, name: &str, value: f64) -> String {
     replaced + rest
 }
 
+/// Returns whether the components of `rgb(…)`, separated by commas, are neither all numbers nor all
+/// percentages.
+fn mixes_units(function: &str, arguments: &str) -> bool {
+    let parts: Vec<_> = split_outside_brackets(arguments, ',').collect();
+    let percent = parts.iter().take(3).filter(|part| part.ends_with('%'));
+    function.starts_with("rgb") && parts.len() >= 3 && !matches!(percent.count(), 0 | 3)
+}
+
 /// Returns the colour space of a function that gives a relative colour.
 fn relative_space(function: &str) -> Option<ColorSpaceTag> {
     match function {
@@ -292,10 +313,6 @@ mod tests {
             ("hsl(from red calc(h + 120) s l)", "#00ff00"),
             ("rgb(calc(100 + 55) 0 0)", "#9b0000"),
             ("CanvasText", "#000000"),
-            (
-                "#CD853F icc-color(acmecmyk, 0.11, 0.48, 0.83, 0.00)",
-                "#cd853f",
-            ),
             ("transparent", "rgba(0, 0, 0, 0)"),
         ];
         for (text, expected) in cases {
@@ -315,6 +332,8 @@ mod tests {
             "rde",
             "#12",
             "rgb(1 2)",
+            "rgba(0, 50%, 0, 0.5)",
+            "red icc-color(acmecmyk, 0.11, 0.48, 0.83, 0.00)",
             "color-mix(red)",
             "url(#a)",
             "none",

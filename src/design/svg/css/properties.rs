@@ -65,7 +65,7 @@ use ValueType::{
 
 /// All properties that are written as attributes (SVG 2, appendix on properties, and the CSS
 /// modules that it refers to).
-const PROPERTIES: [Property; 86] = [
+const PROPERTIES: [Property; 90] = [
     inherited("fill", Paint, "black"),
     inherited("fill-opacity", Opacity, "1"),
     inherited("fill-rule", Keyword, "nonzero"),
@@ -90,6 +90,7 @@ const PROPERTIES: [Property; 86] = [
     inherited("clip-rule", Keyword, "nonzero"),
     own("mask", Verbatim),
     own("mask-type", Keyword),
+    own("mask-mode", Keyword),
     own("filter", Verbatim),
     own("mix-blend-mode", Keyword),
     own("isolation", Keyword),
@@ -151,7 +152,10 @@ const PROPERTIES: [Property; 86] = [
     inherited("kerning", Verbatim, "auto"),
     own("animation", Verbatim),
     own("animation-name", Verbatim),
+    own("clip", Verbatim),
     own("offset-path", Verbatim),
+    own("perspective", Verbatim),
+    inherited("text-shadow", Verbatim, "none"),
 ];
 
 /// Returns the description of a property, or `None` if it does not change a drawing.
@@ -167,7 +171,8 @@ pub(in crate::design::svg) fn is_presentation_attribute(name: &str, tag: &str) -
     };
     match property.name {
         "font" | "translate" | "rotate" | "scale" | "animation" | "animation-name"
-        | "offset-path" | "text-transform" | "mix-blend-mode" | "isolation" => false,
+        | "offset-path" | "text-transform" | "mix-blend-mode" | "isolation"
+        | "background-color" | "mask-mode" | "perspective" | "text-shadow" => false,
         "d" => tag == "path",
         "x" | "y" | "width" | "height" | "cx" | "cy" | "r" | "rx" | "ry" => {
             has_geometry(property.name, tag)
@@ -212,7 +217,11 @@ pub(in crate::design::svg) fn longhands(name: &str, value: &str) -> Vec<(String,
             }
             found
         }
-        "background" => one("background-color", value),
+        // Components that are no colours are invalid and thus ignored.
+        "background" => components(value)
+            .into_iter()
+            .flat_map(|component| one("background-color", component))
+            .collect(),
         "text-decoration-line" => one("text-decoration", value),
         "font-variant-caps" => one("font-variant", value),
         "overflow-x" | "overflow-y" => one("overflow", value),
@@ -325,9 +334,13 @@ fn path_data(value: &str) -> Option<String> {
         .strip_suffix(')')?
         .trim();
     // A fill rule before the string is allowed in clip paths only.
-    let quote = inner.chars().next().filter(|c| matches!(c, '"' | '\''))?;
-    let text = inner.strip_prefix(quote)?.strip_suffix(quote)?;
-    Some(text.to_owned())
+    quoted(inner).map(str::to_owned)
+}
+
+/// Returns the content of a string in quotation marks.
+pub(super) fn quoted(text: &str) -> Option<&str> {
+    let quote = text.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+    text.strip_prefix(quote)?.strip_suffix(quote)
 }
 
 #[cfg(test)]

@@ -104,7 +104,7 @@ impl TransformReader {
                 translation(self.x(x)?, self.y(y)?)
             }
             ("translatey", [y]) => translation(0.0, self.y(y)?),
-            ("translatez" | "scalez", [_]) => DMat4::IDENTITY,
+            ("translatez" | "scalez", [_]) | ("perspective", ["none"]) => DMat4::IDENTITY,
             ("scale", [s]) => scale(self.number(s)?, self.number(s)?),
             ("scale", [x, y]) | ("scale3d", [x, y, _]) => scale(self.number(x)?, self.number(y)?),
             ("scalex", [x]) => scale(self.number(x)?, 1.0),

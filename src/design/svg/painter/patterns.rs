@@ -35,9 +35,11 @@ impl SvgPainter<'_> {
         let base = frame.pre_concat(pattern.transform());
         let rect = pattern.rect();
         let [x, y, w, h] = [rect.x(), rect.y(), rect.width(), rect.height()].map(f64::from);
-        let tile = self.rectangle([x, y, w, h], base);
+        // The content is placed relative to the corner of the tile.
+        let content = base.pre_translate(rect.x(), rect.y());
+        let tile = self.rectangle([0.0, 0.0, w, h], content);
         let shapes =
-            self.collect(|painter| painter.inner_tree(pattern.root(), base, Some(&tile)))?;
+            self.collect(|painter| painter.inner_tree(pattern.root(), content, Some(&tile)))?;
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
             return Ok(());
         };

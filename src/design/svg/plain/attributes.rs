@@ -1,10 +1,11 @@
 //! Writes the start tag of an element: its properties and its other attributes, with references by
 //! the ids of the plain drawing.
 
+use super::clip_shapes::is_clip_shape;
 use super::element_style::{ElementStyle, PropertyValue};
 use super::inherited::{InheritedStyle, Overrides};
 use super::{PlainWriter, plain_id, push_escaped};
-use crate::design::svg::css::properties::is_presentation_attribute;
+use crate::design::svg::css::properties::{is_presentation_attribute, is_reference};
 use crate::design::svg::css::syntax::find_outside_brackets;
 use crate::design::svg::css::transforms::{ReferenceBox, TransformProperties, affine_map};
 use crate::design::svg::lost_features::element_label;
@@ -59,7 +60,8 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
             }
         }
         self.other_attributes(node, overrides);
-        self.properties(node, style, is_root);
+        self.properties(node, style);
+        self.white_space(node, style);
         if let Some((name, value)) = self.transform(node, style) {
             self.attribute(name, &value);
         }
@@ -100,6 +102,17 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
         }
     }
 
+    /// Writes `white-space` as `xml:space`, which `usvg` knows.
+    fn white_space(&mut self, node: Node<'d, 'a>, style: &ElementStyle) {
+        let Some(value) = style.values.get("white-space") else {
+            return;
+        };
+        if !node.has_attribute((XML, "space")) {
+            let keeps = matches!(value.text.as_str(), "pre" | "pre-wrap" | "break-spaces");
+            self.attribute("xml:space", if keeps { "preserve" } else { "default" });
+        }
+    }
+
     /// Writes the link of an element to another one.
     fn link(&mut self, node: Node<'d, 'a>) {
         let tag = node.tag_name().name();
@@ -126,24 +139,29 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
                 return self.attribute("href", &format!("#{}", plain_id(target, 0)));
             }
             Target::Missing => return,
-            Target::External if tag == "image" && is_drawing(href) => {
-                return self.attribute("href", href);
+            Target::External if tag == "image" && href.trim_start().starts_with("data:") => {
+                // The importer reads the data of this element.
+                return self.attribute("href", &plain_id(node.id(), 0));
             }
-            Target::External if tag == "image" => "picture in the drawing",
+            Target::External if tag == "image" => "picture in another file",
             Target::External => "reference to another file",
         };
         self.lost.ignore(feature, &element_label(node));
     }
 
     /// Writes the properties, except those that make up the transform.
-    fn properties(&mut self, node: Node<'d, 'a>, style: &ElementStyle, is_root: bool) {
+    fn properties(&mut self, node: Node<'d, 'a>, style: &ElementStyle) {
         let has_font = style.values.contains_key("font");
         let mut declarations = String::new();
         for (&name, value) in &style.values {
             if TRANSFORMS.contains(&name) || name == "text-transform" {
                 continue;
             }
-            let Some(text) = self.property(node, name, value, is_root) else {
+            let text = match is_clip_shape(name, &value.text) {
+                true => self.clip_shape(node, value, style),
+                false => self.property(node, name, value, style),
+            };
+            let Some(text) = text else {
                 continue;
             };
             // `font` comes first, because it resets the others.
@@ -163,17 +181,40 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
         node: Node<'d, 'a>,
         name: &str,
         value: &PropertyValue,
-        is_root: bool,
+        style: &ElementStyle,
     ) -> Option<String> {
         let label = || element_label(node);
+        let is_root = node.parent_element().is_none();
         let text = value.text.as_str();
         match name {
             _ if text.is_empty() => return None, // `auto`
-            "filter" if text == "none" => return None,
-            "filter" => {
-                self.lost.ignore("filter", &label());
+            "background-color" => {
+                let colour = match text {
+                    "currentColor" => style.colour.clone(),
+                    text => text.to_owned(),
+                };
+                // Only the root element has a box that is painted.
+                self.drawing.background = Some(colour).filter(|_| is_root);
                 return None;
             }
+            "mask-mode" => {
+                let is_plain = text == "match-source" || !style.values.contains_key("mask");
+                if !is_plain {
+                    self.lost.ignore(&format!("mask-mode {text}"), &label());
+                }
+                return None;
+            }
+            "mask" if !is_reference(text) => {
+                if text.contains('(') {
+                    self.lost.ignore(&format!("mask {text}"), &label());
+                }
+                return None;
+            }
+            "font-variant" if text == "small-caps" => {
+                let done = "drawn only if the font has small capitals";
+                self.lost.replace("font-variant small-caps", done, &label());
+            }
+            "white-space" => return None, // written as `xml:space`
             "vector-effect" if text == "non-scaling-stroke" => {
                 self.drawing.non_scaling.insert(node.id());
                 return None;
@@ -292,42 +333,31 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
         }
     }
 
-    /// Returns the box that a transform refers to; `None` if it has not been measured.
-    fn reference_box(
+    /// Returns the box that a transform or a clip path refers to; `None` if it has not been
+    /// measured.
+    pub(super) fn reference_box(
         &mut self,
         node: Node,
         kind: &str,
         style: &ElementStyle,
     ) -> Option<ReferenceBox> {
-        let is_own = matches!(
-            kind,
-            "fill-box" | "content-box" | "stroke-box" | "border-box"
-        );
-        if !is_own {
-            return Some(ReferenceBox {
-                corner: DVec2::ZERO,
-                size: style.lengths.viewport,
-            });
-        }
         let measured = self.sources.boxes.get(&node.id());
-        self.drawing.lacks_boxes |= measured.is_none();
-        measured.map(|bounds| ReferenceBox {
+        let bounds = match kind {
+            "fill-box" | "content-box" | "padding-box" => measured.map(|boxes| boxes.fill),
+            "stroke-box" | "border-box" | "margin-box" => measured.map(|boxes| boxes.stroke),
+            _ => {
+                return Some(ReferenceBox {
+                    corner: DVec2::ZERO,
+                    size: style.lengths.viewport,
+                });
+            }
+        };
+        self.drawing.lacks_boxes |= bounds.is_none();
+        bounds.map(|bounds| ReferenceBox {
             corner: bounds.min,
             size: bounds.size(),
         })
     }
-}
-
-/// Returns whether a link holds a drawing as data.
-fn is_drawing(href: &str) -> bool {
-    let kinds = [
-        "data:image/svg+xml",
-        "data:text/xml",
-        "data:text/plain",
-        "data:,",
-        "data:;",
-    ];
-    kinds.iter().any(|kind| href.trim_start().starts_with(kind))
 }
 
 /// Returns the link of an element; `href` overrides `xlink:href`.

@@ -3,7 +3,7 @@
 use super::PlainWriter;
 use super::attributes::href;
 use super::element_style::ElementStyle;
-use super::inherited::{InheritedStyle, Overrides, view_box_size};
+use super::inherited::{InheritedStyle, Overrides};
 use super::kinds::ElementKind;
 use crate::design::svg::css::math::{PercentageBasis, evaluate};
 use crate::design::svg::error::SvgError;
@@ -133,59 +133,11 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
                 overrides.attributes.push((name, "100%".to_owned()));
             }
         }
-        overrides
-            .attributes
-            .extend([("refX", String::new()), ("refY", String::new())]);
         self.open_tag(symbol, "svg", &style, inherited, &overrides);
         let content = style.inherited_by_content(symbol, "svg", inherited, &overrides);
-        let reference = self.reference_point(symbol, &content);
-        if let Some([x, y]) = reference {
-            self.drawing.text += &format!("<g transform=\"translate({} {})\">", -x, -y);
-        }
         self.content(symbol, &content)?;
-        if reference.is_some() {
-            self.close_tag("g");
-        }
         self.close_tag("svg");
         Ok(())
-    }
-
-    /// Returns the point of a symbol that lies at the place of its copies, if it gives one.
-    fn reference_point(&self, symbol: Node, content: &InheritedStyle) -> Option<[f64; 2]> {
-        let axes = [
-            ("refX", PercentageBasis::Width),
-            ("refY", PercentageBasis::Height),
-        ];
-        let is_given = axes.iter().any(|(name, _)| symbol.has_attribute(*name));
-        let corner = view_box_corner(symbol);
-        let point = |(i, (name, basis)): (usize, (&str, PercentageBasis))| {
-            let text = symbol.attribute(name)?;
-            let text = match text.trim() {
-                "left" | "top" => "0%",
-                "center" => "50%",
-                "right" | "bottom" => "100%",
-                text => text,
-            };
-            let found = evaluate(text, &content.lengths, basis)?;
-            // Keywords and percentages count from the corner of the view box.
-            let from = if text.ends_with('%') { corner[i] } else { 0.0 };
-            Some(from + found.value)
-        };
-        let [x, y] = axes;
-        is_given.then(|| [point((0, x)).unwrap_or(0.0), point((1, y)).unwrap_or(0.0)])
-    }
-}
-
-/// Returns the corner of the view box of an element.
-fn view_box_corner(node: Node) -> [f64; 2] {
-    let numbers = node.attribute("viewBox").unwrap_or_default();
-    let numbers = numbers
-        .split([' ', ','])
-        .filter_map(|part| part.trim().parse().ok());
-    let numbers: Vec<f64> = numbers.collect();
-    match (view_box_size(node), numbers.as_slice()) {
-        (Some(_), &[x, y, ..]) => [x, y],
-        _ => [0.0; 2],
     }
 }
 

@@ -30,8 +30,29 @@ pub(super) struct ElementStyle {
     pub values: BTreeMap<&'static str, PropertyValue>,
     variables: Variables,
     pub lengths: LengthContext,
-    colour: String,
+    /// Value of `color`.
+    pub colour: String,
 }
+
+/// Properties that change a picture in browsers and are ignored here, with the values that have no
+/// effect.
+const IGNORED: [(&str, &[&str]); 15] = [
+    ("animation", &["none"]),
+    ("animation-name", &["none"]),
+    ("clip", &["auto"]),
+    ("color-interpolation", &["auto", "sRGB"]),
+    ("direction", &["ltr"]),
+    ("filter", &["none"]),
+    ("font-feature-settings", &["normal"]),
+    ("font-size-adjust", &["none"]),
+    ("glyph-orientation-horizontal", &["auto", "0", "0deg"]),
+    ("glyph-orientation-vertical", &["auto"]),
+    ("offset-path", &["none"]),
+    ("perspective", &["none"]),
+    ("text-overflow", &["clip"]),
+    ("text-shadow", &["none"]),
+    ("unicode-bidi", &["normal", "embed", "isolate"]),
+];
 
 /// Keywords of all properties that stand for another value.
 const INHERITING: [&str; 2] = ["inherit", "unset"];
@@ -63,9 +84,14 @@ impl ElementStyle {
         for (name, _) in &overrides.attributes {
             style.values.remove(name);
         }
-        for name in ["animation", "animation-name", "offset-path"] {
+        for (name, without_effect) in IGNORED {
             let value = style.values.remove(name);
-            if value.is_some_and(|value| !value.text.starts_with("none")) {
+            let has_effect = |value: &PropertyValue| {
+                let mut plain = without_effect.iter();
+                !value.text.is_empty()
+                    && !plain.any(|plain| plain.eq_ignore_ascii_case(&value.text))
+            };
+            if value.as_ref().is_some_and(has_effect) {
                 let feature = name.trim_end_matches("-name");
                 lost.ignore(feature, &element_label(node));
             }
