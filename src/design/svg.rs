@@ -342,6 +342,17 @@ fn embedded_drawing(
     let inner = tree_of(&document, font_lookup, depth + 1).ok()?;
     let mut lost = inner.lost;
     lost.extend(inner.embedded);
+    let plain = inner.plain;
+    let unknown = [
+        ("background-color", plain.background.is_some()),
+        (
+            "vector-effect non-scaling-stroke",
+            !plain.non_scaling.is_empty(),
+        ),
+    ];
+    for (feature, _) in unknown.iter().filter(|(_, is_used)| *is_used) {
+        lost.ignore(feature, "<svg> of an embedded drawing");
+    }
     Some((inner.tree, lost))
 }
 

@@ -2,11 +2,13 @@
 //! records missing fonts and characters.
 
 use crate::design::lettering::BUNDLED_FONT;
+use skrifa::MetadataProvider;
+use skrifa::raw::FontRef;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use usvg::fontdb::{Database, Family, ID, Query, Source};
-use usvg::{FontFamily, FontResolver};
+use usvg::fontdb::{Database, Family, ID, Query, Source, Style, Weight};
+use usvg::{Font, FontFamily, FontResolver, FontStyle};
 
 /// Maximum number of font searches in one drawing. A search looks for a font with a character that
 /// the chosen font lacks (resource limit: each search opens every font file).
@@ -41,7 +43,13 @@ impl FontLookup {
         FontResolver {
             select_font: Box::new(move |font, fonts| {
                 self.note_fonts(font.families(), fonts);
-                select(font, fonts).or_else(|| bundled_font(fonts))
+                let found = select(font, fonts);
+                if let (Some(id), Some(FontFamily::Named(name))) = (found, font.families().first())
+                    && let Some(style) = missing_style(font, id, fonts)
+                {
+                    self.absent().fonts.insert(format!("{name} {style}"));
+                }
+                found.or_else(|| bundled_font(fonts))
             }),
             select_fallback: Box::new(move |character, tried, fonts| {
                 let searches = self.searches.fetch_add(1, Ordering::Relaxed);
@@ -78,6 +86,26 @@ impl FontLookup {
     fn absent(&self) -> std::sync::MutexGuard<'_, MissingFonts> {
         self.absent.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Returns the style that a font should have and the face found for it lacks, if any. Browsers slant
+/// and thicken letters themselves in this case.
+fn missing_style(font: &Font, id: ID, fonts: &Database) -> Option<&'static str> {
+    let face = fonts.face(id)?;
+    let is_slanted = font.style() != FontStyle::Normal && face.style == Style::Normal;
+    let is_thicker = font.weight() >= Weight::SEMIBOLD.0 && face.weight < Weight::SEMIBOLD;
+    let style = match (is_slanted, is_thicker) {
+        (true, _) => "italic",
+        (_, true) => "bold",
+        _ => return None,
+    };
+    // Variable fonts have more styles than the one of their face.
+    let is_variable = |data: &[u8], index: u32| {
+        let face = FontRef::from_index(data, index);
+        face.is_ok_and(|face| !face.axes().is_empty())
+    };
+    let is_variable = fonts.with_face_data(id, is_variable).unwrap_or(false);
+    (!is_variable).then_some(style)
 }
 
 fn is_installed(fonts: &Database, family: Family) -> bool {

@@ -97,6 +97,7 @@ pub(super) fn paint_tree(
         is_drawn: false,
         is_in_text: false,
         depth: 0,
+        is_embedded: false,
         picture_pixels_left: pictures::MAX_PICTURE_PIXELS,
     };
     painter.group(tree.root(), None, options.element.is_none())?;
@@ -142,6 +143,8 @@ pub(super) struct SvgPainter<'b> {
     pub(super) is_in_text: bool,
     /// Number of patterns and embedded drawings around the current tree.
     depth: usize,
+    /// Whether the traversal is inside an embedded drawing.
+    is_embedded: bool,
     /// Number of pixels of pictures that may still be decoded.
     picture_pixels_left: u64,
 }
@@ -179,7 +182,7 @@ impl SvgPainter<'_> {
         let mut shapes = self.collect(|painter| painter.children(group, clip, is_within))?;
         // `usvg` puts a single element with a mask or the like into a group without id.
         let outer = self.element;
-        if source_element(group.id()).is_none() {
+        if source_element(group.id()).is_none() && !self.is_embedded {
             self.element = group.children().first().and_then(first_source).or(outer);
         }
         if let Some(mask) = group.mask() {
@@ -213,7 +216,7 @@ impl SvgPainter<'_> {
         is_within: bool,
     ) -> Result<(), SvgError> {
         for node in group.children() {
-            let source = source_element(node.id());
+            let source = self.source(node.id());
             // Copies are not selected: they have the id of their original.
             let is_original = source.is_some() && !node.id().contains('-');
             let is_selected = is_original && self.options.element == source;
@@ -232,6 +235,12 @@ impl SvgPainter<'_> {
             (self.element, self.group_name) = outer;
         }
         Ok(())
+    }
+
+    /// Returns the element of the drawing that an id of the plain drawing belongs to; `None` inside
+    /// of an embedded drawing, whose ids are those of another document.
+    pub(super) fn source(&self, id: &str) -> Option<NodeId> {
+        source_element(id).filter(|_| !self.is_embedded)
     }
 
     /// Makes an element the current one. Returns the state to restore after its content.
@@ -303,17 +312,10 @@ impl SvgPainter<'_> {
         let size = page_of(tree);
         let page = self.rectangle([0.0, 0.0, size.x, size.y], base);
         let page = clip_rings(page, clip);
-        // The ids of an embedded drawing are those of another document.
-        let (element, name) = (self.element, self.group_name.clone());
-        let painted = self.collect(|painter| painter.inner_tree(tree.root(), base, Some(&page)))?;
-        (self.element, self.group_name) = (element, name.clone());
-        self.painted
-            .shapes
-            .extend(painted.into_iter().map(|shape| SvgShape {
-                name: name.clone(),
-                ..shape
-            }));
-        Ok(())
+        let was_embedded = std::mem::replace(&mut self.is_embedded, true);
+        let painted = self.inner_tree(tree.root(), base, Some(&page));
+        self.is_embedded = was_embedded;
+        painted
     }
 
     /// Converts the glyph outlines of a text element to shapes.

@@ -283,7 +283,7 @@ pub(in crate::design::svg) fn plain_value(
             has_unit.then(|| found.value.to_string())
         }
         ValueType::Keyword => Some(plain_keyword(property.name, &lower())),
-        ValueType::Verbatim | ValueType::Transform => Some(value.to_owned()),
+        ValueType::Verbatim | ValueType::Transform => Some(value.trim().to_owned()),
         ValueType::PathData => path_data(value),
     }
 }

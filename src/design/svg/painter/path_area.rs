@@ -3,7 +3,6 @@
 use super::SvgPainter;
 use crate::design::svg::error::SvgError;
 use crate::design::svg::ink_layers::{WindingRings, clip_rings, union};
-use crate::design::svg::plain::source_element;
 use crate::design::svg::resolved_paint::is_filled;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
 use usvg::{ClipPath, Group, Node, Path, Stroke, Transform, tiny_skia_path};
@@ -124,7 +123,7 @@ impl SvgPainter<'_> {
 
     /// Returns whether the stroke of a path keeps its width when the drawing is scaled.
     pub(in crate::design::svg) fn is_non_scaling(&self, path: &Path) -> bool {
-        let source = source_element(path.id());
+        let source = self.source(path.id());
         source.is_some_and(|id| self.options.non_scaling.contains(&id))
     }
 
@@ -161,7 +160,7 @@ impl SvgPainter<'_> {
         data: &tiny_skia_path::Path,
         dash: tiny_skia_path::StrokeDash,
     ) -> Option<tiny_skia_path::StrokeDash> {
-        let source = source_element(path.id());
+        let source = self.source(path.id());
         let given = source.and_then(|id| self.options.path_length(id));
         let (Some(given), Some(stroke)) = (given, path.stroke()) else {
             return Some(dash);

@@ -62,6 +62,7 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
         self.other_attributes(node, overrides);
         self.properties(node, style);
         self.white_space(node, style);
+        self.report_turned_markers(node, style);
         if let Some((name, value)) = self.transform(node, style) {
             self.attribute(name, &value);
         }
@@ -99,6 +100,27 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
         }
         if overrides.get("href").is_none() {
             self.link(node);
+        }
+    }
+
+    /// Reports markers where an outline is closed: browsers turn them to the mean of the first and
+    /// the last direction, `usvg` to one of them.
+    fn report_turned_markers(&mut self, node: Node<'d, 'a>, style: &ElementStyle) {
+        let value = |name| {
+            style
+                .values
+                .get(name)
+                .map_or("", |value| value.text.as_str())
+        };
+        let is_closed = match node.tag_name().name() {
+            "polygon" => true,
+            "path" => value("d").contains(['z', 'Z']),
+            _ => false,
+        };
+        let ends = ["marker-start", "marker-end"].map(value);
+        if is_closed && ends.iter().any(|end| is_reference(end)) {
+            let done = "turned to one of both directions where the outline is closed";
+            self.lost.replace("marker", done, &element_label(node));
         }
     }
 
@@ -194,7 +216,9 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
                     text => text.to_owned(),
                 };
                 // Only the root element has a box that is painted.
-                self.drawing.background = Some(colour).filter(|_| is_root);
+                if is_root {
+                    self.drawing.background = Some(colour);
+                }
                 return None;
             }
             "mask-mode" => {
@@ -204,10 +228,8 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
                 }
                 return None;
             }
-            "mask" if !is_reference(text) => {
-                if text.contains('(') {
-                    self.lost.ignore(&format!("mask {text}"), &label());
-                }
+            "mask" if text.contains('(') && !is_reference(text) => {
+                self.lost.ignore(&format!("mask {text}"), &label());
                 return None;
             }
             "font-variant" if text == "small-caps" => {

@@ -19,9 +19,7 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
         style: &ElementStyle,
     ) -> Option<String> {
         let text = value.text.as_str();
-        let Some(shape) = ShapeValue::of(text) else {
-            return None; // invalid: browsers ignore it, too
-        };
+        let shape = ShapeValue::of(text)?;
         let reference = self.reference_box(node, shape.reference, style)?;
         let reader = ShapeReader {
             context: LengthContext {
@@ -51,7 +49,7 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
     }
 }
 
-/// Returns whether a value of `clip-path` may be a basic shape.
+/// Returns whether the value of a property is a clip path that is a basic shape.
 pub(super) fn is_clip_shape(name: &str, text: &str) -> bool {
-    name == "clip-path" && !is_reference(text) && !text.eq_ignore_ascii_case("none")
+    name == "clip-path" && !is_reference(text) && ShapeValue::of(text).is_some()
 }
