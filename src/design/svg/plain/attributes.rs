@@ -374,7 +374,12 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
                 });
             }
         };
-        self.drawing.lacks_boxes |= bounds.is_none();
+        if bounds.is_none() {
+            // The note of the last pass counts.
+            self.drawing.lacks_boxes = true;
+            self.lost
+                .ignore(&format!("{kind} that is unknown"), &element_label(node));
+        }
         bounds.map(|bounds| ReferenceBox {
             corner: bounds.min,
             size: bounds.size(),
