@@ -353,11 +353,13 @@ fn luminance([r, g, b, _]: [u8; 4]) -> u8 {
     luma.round() as u8
 }
 
-/// Returns Otsu's threshold, which maximises the variance between two classes: the levels below the
-/// threshold and the others. Returns `None` if all levels are equal.
+/// Returns the threshold between the two classes of levels that have the largest variance between
+/// them (Otsu 1979): the mean of the means of the two classes. Returns `None` if all levels are
+/// equal.
 ///
-/// If several consecutive thresholds are equally good, returns the middle one, so a picture of
-/// black and white gets 128.
+/// At the optimum each level is nearer to the mean of its own class, so the threshold separates the
+/// classes. The figure covers half of a pixel with this level, if the two classes are plain, so the
+/// boundary of an antialiased figure is traced where it lies.
 fn otsu(tones: &[u8]) -> Option<u8> {
     let mut histogram = [0u64; 256];
     for &tone in tones {
@@ -367,27 +369,23 @@ fn otsu(tones: &[u8]) -> Option<u8> {
     let weighted = |(tone, &n): (usize, &u64)| tone as f64 * n as f64;
     let sum: f64 = histogram.iter().enumerate().map(weighted).sum();
     let (mut below, mut sum_below) = (0.0, 0.0);
-    let mut best = (0.0, 0, 0); // variance, first and last threshold of the best run so far
+    let mut best = (0.0, 0.0); // variance and threshold
     for threshold in 1..256 {
         below += histogram[threshold - 1] as f64;
         sum_below += weighted((threshold - 1, &histogram[threshold - 1]));
-        // `variance` is the variance between the two classes, up to a constant factor.
-        let separation = sum_below * total - sum * below;
-        let classes = below * (total - below);
-        let variance = if classes > 0.0 {
-            separation * separation / classes
-        } else {
-            0.0
-        };
+        let above = total - below;
+        if below == 0.0 || above == 0.0 {
+            continue;
+        }
+        let means = [sum_below / below, (sum - sum_below) / above];
+        // The variance between the two classes, up to a constant factor.
+        let variance = below * above * (means[1] - means[0]).powi(2);
         if variance > best.0 {
-            best = (variance, threshold, threshold);
-        // `best` holds a run of consecutive, equally good thresholds. Another one extends the run
-        // only if it directly follows the last one.
-        } else if variance == best.0 && best.0 > 0.0 && best.2 + 1 == threshold {
-            best.2 = threshold;
+            best = (variance, 0.5 * (means[0] + means[1]));
         }
     }
-    (best.0 > 0.0).then(|| (best.1 + best.2).div_ceil(2) as u8)
+    // A level belongs to the upper class from the threshold on.
+    (best.0 > 0.0).then(|| best.1.ceil() as u8)
 }
 
 /// Returns whether at least half of the border pixels are at or above the threshold, so that the
