@@ -5,7 +5,7 @@
 //! sum is the duration of the film to the nearest hundredth; a pause is one long frame. A GIF pixel
 //! is either opaque or transparent, so pixels that are covered less than half are transparent.
 
-mod changes;
+pub(super) mod changes;
 
 use std::collections::HashMap;
 use std::io::{BufWriter, Write};
@@ -31,6 +31,10 @@ pub const MAX_GIF_FPS: f64 = 50.0;
 
 /// GIF delay units per second.
 const TICKS_PER_SEC: f64 = 100.0;
+
+/// Size of a frame without its data, in bytes: graphic control extension, image descriptor and end
+/// of the data (GIF89a, sections 20 to 23).
+const FRAME_HEADER: usize = 8 + 10 + 1;
 
 /// Number of frames whose colours determine the palette (resource limit: they are drawn twice).
 /// Colours that occur only in other frames are replaced by the nearest.
@@ -60,10 +64,12 @@ pub fn write_gif(
     let choosing = ProgressSpan::new(progress, 0.0, PALETTE_FRACTION);
     let palette = film_palette(camera, &film.runs(), &choosing)?;
     let drawing = ProgressSpan::new(progress, PALETTE_FRACTION, 1.0);
-    write_with_palette(camera, film, &palette, file, path, &drawing)
+    write_with_palette(camera, film, &palette, file, path, &drawing)?;
+    Ok(())
 }
 
-/// Writes a section of a film with the palette of the whole film.
+/// Writes a section of a film with the palette of the whole film. Returns the size of each frame in
+/// bytes.
 ///
 /// # Errors
 /// Same as for [`write_gif`].
@@ -73,12 +79,12 @@ pub(super) fn write_gif_section(
     palette: &GifPalette,
     path: &Path,
     progress: &dyn Progress,
-) -> Result<(), ExportError> {
+) -> Result<Vec<usize>, ExportError> {
     let file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     write_with_palette(camera, section, palette, file, path, progress)
 }
 
-/// Writes the film to `file`, whose final path is `path`.
+/// Writes the film to `file`, whose final path is `path`. Returns the size of each frame in bytes.
 fn write_with_palette(
     camera: &Camera,
     film: &FilmSpec,
@@ -86,13 +92,14 @@ fn write_with_palette(
     mut file: AtomicFile,
     path: &Path,
     progress: &dyn Progress,
-) -> Result<(), ExportError> {
+) -> Result<Vec<usize>, ExportError> {
     let writer = BufWriter::new(file.file_mut());
     let mut encoder = encoder(writer, camera, film, palette).map_err(ExportError::encode(path))?;
     let mut canvas = camera.ground.map(|_| GifCanvas::default());
     // Pauses, and the first and the last frame of a whole film, are shown long enough to be looked
     // at, so each of their pixels gets the nearest palette colour.
     let frames = film.times().len();
+    let mut frame_sizes = Vec::new();
     let is_still =
         |run: FrameRun| run.count > 1 || run.first == 0 || run.first + run.count == frames;
     camera.draw_runs(
@@ -103,6 +110,9 @@ fn write_with_palette(
         |run, drawn| {
             let mut frame = encode_next_frame(&drawn, canvas.as_mut(), is_still(run), palette);
             frame.delay = u16::try_from(film.ticks(run, TICKS_PER_SEC)).unwrap_or(u16::MAX);
+            // The data is stored in blocks of 255 bytes, each with its length.
+            let data = frame.buffer.len();
+            frame_sizes.push(FRAME_HEADER + data + data.div_ceil(255));
             let written = encoder.write_lzw_pre_encoded_frame(&frame);
             written.map_err(ExportError::encode(path))
         },
@@ -115,7 +125,8 @@ fn write_with_palette(
     let written = file.reread().map_err(ExportError::write(path))?;
     let checking = ProgressSpan::new(progress, DRAWN_FRACTION, 1.0);
     check_gif(written, film.runs().len(), path, &checking)?;
-    file.commit().map_err(ExportError::write(path))
+    file.commit().map_err(ExportError::write(path))?;
+    Ok(frame_sizes)
 }
 
 /// Returns an encoder that has written the header and the palette.

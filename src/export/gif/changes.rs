@@ -13,7 +13,7 @@ pub(super) const TRANSPARENT: u8 = 255;
 /// Maximum difference between the colour that a pixel shows and its exact colour in the next frame,
 /// per channel, on the scale from 0 to 255 (heuristic). A pixel that differs by no more is not
 /// redrawn. Still frames are exempt: they always get the nearest palette colours.
-const SLACK: u8 = 6;
+pub(in crate::export) const SLACK: u8 = 6;
 
 /// A frame, and its pixels mapped to the colours of the palette.
 pub(super) struct IndexedFrame {
