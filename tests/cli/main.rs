@@ -326,6 +326,30 @@ fn wrong_usage_exits_with_code_two() {
 }
 
 #[test]
+fn render_prints_what_the_import_left_out_once_for_each_design() {
+    let cli = CliFixture::new();
+    let square = "<path d=\"M5 5H25V35H5Z\"/><image width=\"9\" height=\"9\" href=\"x.png\"/>";
+    cli.write(
+        "c.svg",
+        &format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"40\">{square}</svg>"
+        ),
+    );
+    let runs = [
+        ("render c.svg c.svg --at 0 --out x.png", 1),
+        ("render c.svg a.svg c.svg --map 2x2 --out m.png", 1),
+        ("render a.svg b.svg --at 0 --out y.png", 0),
+    ];
+    for (line, count) in runs {
+        let output = cli.run(line);
+        assert_eq!(output.status.code(), Some(0), "{line}");
+        let messages = stderr(&output);
+        let notes = messages.lines().filter(|line| line.starts_with("c: "));
+        assert_eq!(notes.count(), count, "{line}: {messages}");
+    }
+}
+
+#[test]
 fn folders_as_output_and_projects_among_designs_are_wrong_usage() {
     let cli = CliFixture::new();
     let folder = "render a.obj b.obj --at 0.5 --out exist.png";
