@@ -1,14 +1,13 @@
 //! Writes a vector animation as a Lottie animation (JSON): format 1.0 of the Lottie Animation
 //! Community, in the form written by Bodymovin 5.7.
 //!
-//! Shapes are animated uniformly in t within a precomposition, whose time is remapped to that of
-//! the film. Easing, pauses, stops and the way back therefore need no shape keyframes. Limits of
-//! the format: repeating gradients are drawn once, and radial gradients that are not uniformly
-//! scaled are drawn circular.
+//! Shapes are animated within a precomposition that has one frame for each t that the film shows. Its
+//! time is remapped to that of the film, so that pauses and the way back need no shape keyframes.
+//! Limits of the format: repeating gradients are drawn once, and radial gradients that are not
+//! uniformly scaled are drawn circular.
 //!
 //! Plays in lottie-web, rlottie and ThorVG, with the same pictures (`tests/motion`). rlottie shows
-//! the precomposition at whole frames only, rounded down: in films that play once, up to one frame
-//! early, and in films that play back and forth, half a frame.
+//! the precomposition at whole frames only, and each frame of the film is one of these.
 
 mod format;
 #[cfg(test)]
@@ -22,7 +21,7 @@ use crate::geometry::DVec2;
 use super::super::size::PixelSize;
 use super::animation::VectorAnimation;
 use super::shape::{GradientForm, PathVerb, PosedShape, ShapeForm};
-use super::timeline::{FilmTimeline, TimelineCurve};
+use super::timeline::FilmTimeline;
 use super::tracks::{KeyedProperty, SceneLayer, layers};
 use super::two_point_gradient::TwoPointGradient;
 use format::{
@@ -31,9 +30,13 @@ use format::{
     round_number,
 };
 
-/// Number of uniform intervals of t at whose ends shape keyframes may lie (resource limit: bounds
-/// the size of the file).
-const KEYFRAME_INTERVALS: usize = 240;
+/// Maximum number of frames at which shape keyframes may lie (resource limit: bounds the size of the
+/// file). Longer films have keyframes at every second frame, every third and so on.
+const MAX_KEYED_FRAMES: usize = 480;
+
+/// Delay of the remapped time, in frames (tolerance: players that round times down to whole frames
+/// compute with 32 bits and must not show the frame before; no movement in this time is visible).
+const FRAME_TOLERANCE: f64 = 0.01;
 
 /// Identifier of the composition with the scenes of the film.
 const FILM_ID: &str = "film";
@@ -42,17 +45,8 @@ const FILM_ID: &str = "film";
 pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> String {
     let timeline = &animation.timeline;
     let frames = timeline.frames();
-    // The largest remapped time is the length of the precomposition. If it equals the number of
-    // frames of the film, players take it for the end and show an earlier moment. Shorter
-    // precompositions would be less precise in rlottie. Beyond the end of a film of one frame there
-    // is nothing to show, so its precomposition may be longer.
-    let length = match frames {
-        1 => 2.0,
-        frames => (frames - 1) as f64,
-    };
-    let [from, to] = animation.time_range();
-    let at = |t: f64| length * (t - from) / (to - from).max(f64::MIN_POSITIVE);
-    let remap = time_remap(timeline, |t| at(t) / timeline.fps);
+    let shown = ShownTimes::of(timeline);
+    let remap = time_remap(timeline, &shown);
     let (width, height) = (animation.size.width(), animation.size.height());
     LottieDocument {
         v: "5.7.4",
@@ -67,26 +61,64 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> String {
             id: FILM_ID,
             nm: title.to_owned(),
             fr: timeline.fps,
-            layers: scenes(animation, length, at),
+            layers: scenes(animation, &shown),
         }],
         layers: film_on_ground(title, animation.size, animation.ground, frames, remap),
     }
     .text()
 }
 
-/// Returns the layers of the composition of the film, whose length is `length` frames. `at` returns
-/// the time in frames at which it shows a t.
-fn scenes(animation: &VectorAnimation, length: f64, at: impl Fn(f64) -> f64) -> Vec<LottieLayer> {
-    let [from, to] = animation.time_range();
-    let mut times: Vec<f64> = (0..=KEYFRAME_INTERVALS)
-        .map(|k| k as f64 / KEYFRAME_INTERVALS as f64)
-        .map(|s| from * (1.0 - s) + to * s)
-        .chain(animation.pieces.iter().map(|piece| piece.from))
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    let stations: Vec<(f64, f64)> = times.into_iter().map(|t| (at(t), t)).collect();
-    let mut scenes = layers(animation, &stations);
+/// The values of t that a film shows, in ascending order: one for each frame of its composition.
+struct ShownTimes(Vec<f64>);
+
+impl ShownTimes {
+    fn of(timeline: &FilmTimeline) -> Self {
+        let mut times = timeline.times.clone();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        Self(times)
+    }
+
+    /// Returns the last frame of the composition.
+    fn last(&self) -> f64 {
+        (self.0.len() - 1) as f64
+    }
+
+    /// Returns the time in frames at which the composition shows a t.
+    fn frame_of(&self, t: f64) -> f64 {
+        let after = self.0.partition_point(|&shown| shown < t);
+        match (after.checked_sub(1), self.0.get(after)) {
+            (Some(before), Some(&next)) if t < next => {
+                let start = self.0[before];
+                before as f64 + (t - start) / (next - start)
+            }
+            (_, Some(_)) => after as f64,
+            (_, None) => self.last(),
+        }
+    }
+
+    /// Returns the times in frames, each with its t, at which shapes are sampled: frames, and the
+    /// starts of the pieces of the animation.
+    fn stations(&self, animation: &VectorAnimation) -> Vec<(f64, f64)> {
+        let step = self.0.len().div_ceil(MAX_KEYED_FRAMES);
+        let [from, to] = [self.0[0], self.0[self.0.len() - 1]];
+        let starts = animation.pieces.iter().map(|piece| piece.from);
+        let starts = starts.filter(|&t| from < t && t < to);
+        let mut times: Vec<f64> = self.0.iter().copied().step_by(step).collect();
+        times.extend(starts.chain([to]));
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let stations = times.into_iter().map(|t| (self.frame_of(t), t));
+        // A film of a single t lasts longer than the frame that shows it first.
+        let end = (from == to).then_some((1.0, to));
+        stations.chain(end).collect()
+    }
+}
+
+/// Returns the layers of the composition of the film, which has one frame for each of the times
+/// `shown`.
+fn scenes(animation: &VectorAnimation, shown: &ShownTimes) -> Vec<LottieLayer> {
+    let mut scenes = layers(animation, &shown.stations(animation));
     // Scenes (consecutive animation pieces with the same shapes) that are too short for the precision
     // of times are never visible.
     let time = |frames: f64| round_number(frames, 3);
@@ -98,7 +130,7 @@ fn scenes(animation: &VectorAnimation, length: f64, at: impl Fn(f64) -> f64) -> 
         // The first scene begins at 0, and the last one ends after the end of the film, so that
         // rounding in a player never hides them.
         let from = begin.clone().unwrap_or(0.into());
-        let to = end.clone().unwrap_or_else(|| time(length + 1.0));
+        let to = end.clone().unwrap_or_else(|| time(shown.last() + 1.0));
         // Lottie lists the topmost shape first.
         let topmost_first = scene.shapes.iter().rev();
         let shapes = topmost_first.map(|poses| shape(scene, poses)).collect();
@@ -181,22 +213,24 @@ fn layer(
 
 /// Returns the Lottie time remapping: for each frame of the film, the moment of the precomposition
 /// that the frame shows, in seconds from the start of the precomposition.
-fn time_remap(timeline: &FilmTimeline, secs_at: impl Fn(f64) -> f64) -> LottieProperty {
-    let secs = |frame: usize| LottieValue::Number(round_number(secs_at(timeline.times[frame]), 6));
-    let key = |curve: TimelineCurve| {
-        let [out, into] = curve.handles.map(|handle| round_number(handle, 5));
-        let thirds = [1.0 / 3.0, 2.0 / 3.0].map(|third| round_number(third, 5));
-        let [third, two_thirds] = thirds;
-        let handles = [
-            LottieHandle::new(third, out),
-            LottieHandle::new(two_thirds, into),
-        ];
-        LottieKeyframe::new(curve.from.into(), secs(curve.from), Some(handles))
-    };
-    let mut keys: Vec<LottieKeyframe> = timeline.curves().into_iter().map(key).collect();
+fn time_remap(timeline: &FilmTimeline, shown: &ShownTimes) -> LottieProperty {
+    let places: Vec<f64> = (timeline.times.iter().map(|&t| shown.frame_of(t))).collect();
     let last = timeline.frames();
-    keys.push(LottieKeyframe::new(last.into(), secs(last), None));
-    LottieProperty::moving(keys)
+    let is_key = |&k: &usize| {
+        let is_end = k == 0 || k == last;
+        is_end || places[k + 1] - places[k] != places[k] - places[k - 1]
+    };
+    let key = |k: usize| {
+        let secs = round_number((places[k] + FRAME_TOLERANCE) / timeline.fps, 6);
+        let handles = (k < last).then(linear_handles);
+        LottieKeyframe::new(k.into(), LottieValue::Number(secs), handles)
+    };
+    LottieProperty::moving((0..=last).filter(is_key).map(key).collect())
+}
+
+/// Returns the handles of a keyframe after which a property changes linearly.
+fn linear_handles() -> [LottieHandle; 2] {
+    [0, 1].map(|end: i64| LottieHandle::new(end.into(), end.into()))
 }
 
 /// Returns the identity transform.
@@ -444,8 +478,7 @@ fn property<T>(keyed: &KeyedProperty<T>, value: impl Fn(&T) -> LottieValue) -> L
     }
     let last = keyed.keys.len().saturating_sub(1);
     let key = |(k, (x, at)): (usize, &(f64, T))| {
-        let handle = |end: i64| LottieHandle::new(end.into(), end.into());
-        let handles = (k < last).then(|| [handle(0), handle(1)]);
+        let handles = (k < last).then(linear_handles);
         LottieKeyframe::new(round_number(*x, 3), value(at), handles)
     };
     LottieProperty::moving(keyed.keys.iter().enumerate().map(key).collect())

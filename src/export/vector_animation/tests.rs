@@ -97,6 +97,32 @@ fn files_are_valid_and_self_contained() {
 }
 
 #[test]
+fn each_frame_of_a_lottie_film_shows_a_whole_frame_of_its_composition() {
+    let (_, animation) = animation();
+    let lottie: serde_json::Value = serde_json::from_str(&animation.lottie("a")).expect("JSON");
+    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+    let keys: Vec<(f64, f64)> = (lottie["layers"][0]["tm"]["k"].as_array().expect("keys"))
+        .iter()
+        .map(|key| (number(&key["t"]), number(&key["s"][0])))
+        .collect();
+    let times = &animation.timeline.times;
+    let mut shown = times.clone();
+    shown.sort_by(f64::total_cmp);
+    shown.dedup();
+    assert!(keys.len() < 12, "pauses and turns only: {keys:?}");
+    for (k, t) in times.iter().enumerate() {
+        let after = keys.partition_point(|key| key.0 < k as f64).max(1);
+        let [(a, from), (b, to)] = [keys[after - 1], keys[after]];
+        let secs = from + (to - from) * (k as f64 - a) / (b - a);
+        let frame = secs * animation.timeline.fps;
+        let expected = shown.iter().position(|other| other == t).expect("shown");
+        // Players that round down show this frame, and others one that looks the same.
+        assert_eq!(frame.floor() as usize, expected, "frame {k}");
+        assert!(frame - frame.floor() < 0.02, "{frame}");
+    }
+}
+
+#[test]
 fn a_film_of_one_frame_can_be_exported() {
     let camera = camera(40, 30, None);
     let film = FilmSpec::evenly(0.5, 0.5, 1, 10.0).expect("a film");
