@@ -22,6 +22,7 @@
 
 mod band;
 mod colours;
+mod cover;
 mod curve;
 mod drawing;
 mod encoding;

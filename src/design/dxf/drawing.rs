@@ -34,6 +34,10 @@ struct DxfReader {
     open: Option<(Vec<u8>, DxfBlock)>,
     /// Entities outside of blocks.
     entities: Vec<DxfEntity>,
+    /// Style of the last block reference, to which the attributes after it belong.
+    reference: EntityStyle,
+    /// Handles that replace those of entities in the order of drawing (SORTENTSTABLE).
+    sort_handles: HashMap<u64, u64>,
     /// Number of entities and polyline vertices read, including those in blocks.
     objects: usize,
     report: EntityReport,
@@ -54,6 +58,8 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<DxfDrawing, DxfError>
         blocks: HashMap::new(),
         open: None,
         entities: Vec::new(),
+        reference: EntityStyle::default(),
+        sort_handles: HashMap::new(),
         objects: 0,
         report: EntityReport::default(),
         unit: None,
@@ -77,6 +83,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<DxfDrawing, DxfError>
                 let what = "ignored: the block is drawn without its clipping boundary";
                 reader.report.add(&record.remark(what), "0");
             }
+            (b"SORTENTSTABLE", Some(DxfSection::Objects)) => reader.sort_table(&record),
             (b"MLINESTYLE", Some(DxfSection::Objects)) => {
                 let flags = record.integer(70).unwrap_or(0);
                 // Flag 2 shows mitres at the corners; all others are caps or a fill.
@@ -131,6 +138,22 @@ impl DxfReader {
             }
             b"STYLE" => self.texts.add_style(record),
             _ => {}
+        }
+    }
+
+    /// Reads a table of the order of drawing: pairs of the handle of an entity (group code 331) and
+    /// the handle that replaces it (5).
+    fn sort_table(&mut self, record: &DxfRecord) {
+        let mut entity = None;
+        for pair in &record.pairs {
+            match pair.code {
+                331 => entity = pair.handle(),
+                5 => {
+                    let replaced = entity.take().zip(pair.handle());
+                    self.sort_handles.extend(replaced);
+                }
+                _ => {}
+            }
         }
     }
 
@@ -191,6 +214,7 @@ impl DxfReader {
                     style: EntityStyle::of(record),
                     remark: Some(Box::new(remark)),
                     font: None,
+                    handle: record.handle(),
                 }
             }
         };
@@ -207,8 +231,13 @@ impl DxfReader {
         record: &DxfRecord,
         vertices: &[DxfRecord],
     ) -> Result<Option<DxfEntity>, EntityFault> {
-        let (style, mut remark) = record.style_and_remark()?;
+        let (mut style, mut remark) = record.style_and_remark()?;
         let mut font = None;
+        match record.kind {
+            b"INSERT" => self.reference = style.clone(),
+            b"ATTRIB" => style = style.of_attribute(&self.reference),
+            _ => {}
+        }
         let shape = match record.kind {
             b"TEXT" | b"MTEXT" | b"ATTRIB" | b"ATTDEF" => {
                 let Some(text) = self.texts.text(record, self.open.is_some())? else {
@@ -230,6 +259,7 @@ impl DxfReader {
             style,
             remark: remark.map(Box::new),
             font,
+            handle: record.handle(),
         }))
     }
 
@@ -258,6 +288,10 @@ impl DxfReader {
             || std::str::from_utf8(bytes).is_ok()
             || bytes.starts_with(super::BINARY);
         let code_page = (!is_decoded).then_some(DxfNote::CodePage(self.code_page));
+        let blocks = self.blocks.values_mut().map(|block| &mut block.entities);
+        for entities in blocks.chain([&mut self.entities]) {
+            sort_for_drawing(entities, &self.sort_handles);
+        }
         let expansion = BlockExpansion::new(&self.blocks, &mut self.layers, self.report);
         let mut drawing = expansion.expand(&self.entities)?;
         if !self.has_multiline_caps {
@@ -266,5 +300,15 @@ impl DxfReader {
         drawing.unit = self.unit;
         drawing.notes.extend(code_page);
         Ok(drawing)
+    }
+}
+
+/// Sorts entities in the order of drawing: by their handles, some of which a table replaces. Without
+/// such handles, they are drawn in the order of the file.
+fn sort_for_drawing(entities: &mut [DxfEntity], sort_handles: &HashMap<u64, u64>) {
+    let replaced = |entity: &DxfEntity| sort_handles.get(&entity.handle?).copied();
+    let has_all = entities.iter().all(|entity| entity.handle.is_some());
+    if has_all && entities.iter().any(|entity| replaced(entity).is_some()) {
+        entities.sort_by_key(|entity| replaced(entity).or(entity.handle));
     }
 }

@@ -25,6 +25,7 @@ pub(super) struct DxfEntity {
     pub remark: Option<Box<EntityRemark>>,
     /// Name of the font of a text that was replaced by the bundled font.
     pub font: Option<Rc<str>>,
+    pub handle: Option<u64>,
 }
 
 /// Geometry of an entity: its own curves or area, or a reference to a block.
@@ -142,10 +143,11 @@ impl DxfRecord<'_> {
     pub fn style_and_remark(&self) -> Result<(EntityStyle, Option<EntityRemark>), EntityFault> {
         let mut style = EntityStyle::of(self);
         let what = match self.kind {
-            b"HATCH" | b"MPOLYGON" => hatch::replaced_fill(self)?.map(|fill| {
+            b"HATCH" | b"MPOLYGON" => hatch::replaced_fill(self)?.and_then(|fill| {
                 style.colour = fill.colour.map_or(style.colour, Inheritable::Own);
                 fill.what
             }),
+            b"3DFACE" => Some("filled as an area instead of drawn by its edges".into()),
             b"LEADER" if self.integer_or(71, 1)? != 0 => Some("drawn without its arrow".into()),
             b"MLINE" => Some(MULTILINE_REMARK.into()),
             _ => None,

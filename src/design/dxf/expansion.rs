@@ -44,6 +44,8 @@ pub(super) struct DxfPath {
     pub is_closed: bool,
     /// Index of the style.
     pub style: usize,
+    /// Position in the order of drawing, which paths and areas share.
+    pub order: usize,
 }
 
 /// Filled area.
@@ -52,6 +54,8 @@ pub(super) struct DxfArea {
     pub is_text: bool,
     /// Index of the style.
     pub style: usize,
+    /// Position in the order of drawing, which paths and areas share.
+    pub order: usize,
 }
 
 /// Geometry of a filled area.
@@ -168,6 +172,7 @@ impl<'b> BlockExpansion<'b> {
         style: &ResolvedStyle,
     ) -> Result<(), DxfError> {
         let by = context.by;
+        let order = self.drawing.paths.len() + self.drawing.areas.len();
         let placed = |curves: &[DxfCurve]| curves.iter().map(|c| c.transformed(&by)).collect();
         let area = match shape {
             EntityShape::Nothing => return Ok(()),
@@ -178,6 +183,7 @@ impl<'b> BlockExpansion<'b> {
                     curves: placed(curves),
                     is_closed: *is_closed,
                     style,
+                    order,
                 });
                 return Ok(());
             }
@@ -206,6 +212,7 @@ impl<'b> BlockExpansion<'b> {
             shape: area,
             is_text: matches!(shape, EntityShape::Letters(_)),
             style,
+            order,
         });
         Ok(())
     }

@@ -4,6 +4,7 @@
 //! The hatch style says which loops count; the even-odd rule decides what they enclose. Patterns
 //! are drawn as flat fills and gradients in their mean colour.
 
+use super::colours::from_index;
 use super::curve::positive_angle;
 use super::curve::{AreaLoops, DxfCurve, EllipseArc};
 use super::error::EntityFault;
@@ -200,31 +201,45 @@ fn ellipse_parameter(angle: f64, ratio: f64) -> f64 {
     angle + turn
 }
 
-/// Fill of a hatch, if it is not solid: how it is drawn instead, and in which colour.
+/// Fill of a hatch, if it is not solid or has a colour of its own: how it is drawn, and in which
+/// colour.
 pub(super) struct ReplacedFill {
-    /// Treatment, as worded in a note.
-    pub what: String,
+    /// Treatment, as worded in a note; `None` if the fill is solid.
+    pub what: Option<String>,
     /// Colour, if it is not that of the entity.
     pub colour: Option<Rgb>,
 }
 
-/// Returns how the fill of a hatch is replaced; `None` for a solid fill.
+/// Returns how the fill of a hatch is replaced; `None` for a solid fill in the colour of the entity.
 pub(super) fn replaced_fill(record: &DxfRecord) -> Result<Option<ReplacedFill>, EntityFault> {
     if record.integer(450)? != 0 {
         let colours = record.pairs.iter().filter(|pair| pair.code == 421);
         let colours: Vec<i64> = colours.map(GroupPair::integer).collect::<Result<_, _>>()?;
         let what = "filled with the mean colour of the gradient".to_owned();
         let colour = mean_colour(&colours);
-        return Ok(Some(ReplacedFill { what, colour }));
+        return Ok(Some(ReplacedFill {
+            what: Some(what),
+            colour,
+        }));
     }
     // MPOLYGON stores the flag of a solid fill under another group code.
     let solid = if record.kind == b"MPOLYGON" { 71 } else { 70 };
     let name = super::encoding::decode(record.text(2));
     if record.integer(solid)? != 0 || name.eq_ignore_ascii_case("SOLID") {
-        return Ok(None);
+        // The fill of an MPOLYGON has a colour of its own; that of the entity is for its edges.
+        let own = record.first(63).filter(|_| record.kind == b"MPOLYGON");
+        let colour = own.map(GroupPair::integer).transpose()?;
+        let colour = colour.filter(|number| (1..256).contains(number));
+        return Ok(colour.map(|number| ReplacedFill {
+            what: None,
+            colour: Some(from_index(number)),
+        }));
     }
     let what = format!("filled flat instead of with the pattern {name}");
-    Ok(Some(ReplacedFill { what, colour: None }))
+    Ok(Some(ReplacedFill {
+        what: Some(what),
+        colour: None,
+    }))
 }
 
 fn mean_colour(colours: &[i64]) -> Option<Rgb> {

@@ -4,9 +4,10 @@
 //! Each region of the outlines is examined on its own. A line hides in a region if some part of it
 //! lies in the region, farther from the boundary than its own half width. An area hides in a region
 //! if it covers the region in part, or covers one of the region's holes. An area that covers the
-//! region as a whole, such as the hatch of an outline, hides nothing.
+//! region as a whole, such as the hatch of an outline, is hidden if its paint is another one.
 
-use super::sheet::OutlineRing;
+use super::sheet::{OutlineRing, OutlinedArea};
+use super::style::ResolvedStyle;
 use crate::design::svg::{WindingRings, boolean};
 use crate::geometry::{Bounds, DVec2, EdgeBvh, Region, Regions, distance_squared_to_segment};
 use i_overlay::core::fill_rule::FillRule as OverlayFill;
@@ -24,8 +25,9 @@ pub(super) struct InnerLine<'a> {
 /// Things that an outline may hide.
 pub(super) struct InnerContent<'a> {
     pub lines: Vec<InnerLine<'a>>,
-    /// Filled areas, by the non-zero rule.
-    pub areas: Vec<&'a WindingRings>,
+    pub areas: &'a [OutlinedArea],
+    /// Styles of the drawing.
+    pub styles: &'a [ResolvedStyle],
     /// Maximum deviation of flattened curves.
     pub tolerance: f64,
     /// Maximum distance of a cleaned outline from the original one.
@@ -46,15 +48,21 @@ impl InnerContent<'_> {
             .collect();
         let mut hides = vec![false; pieces.len()];
         self.find_lines(regions, &pieces, &mut hides);
-        self.find_areas(&pieces, &mut hides);
+        let covering = self.find_areas(&pieces, &mut hides);
         let mut is_hiding = vec![false; rings.len()];
-        for ((piece, bounds), _) in pieces.iter().zip(&hides).filter(|(_, hides)| **hides) {
+        for (((piece, bounds), hides), covering) in pieces.iter().zip(&hides).zip(&covering) {
+            if !hides && covering.is_empty() {
+                continue;
+            }
+            let paint = |style: usize| self.styles[style].paint;
             let boundary: Vec<EdgeBvh> = piece
                 .rings()
                 .map(|ring| EdgeBvh::of(ring.points()))
                 .collect();
             for (ring, is_hiding) in rings.iter().zip(&mut is_hiding) {
-                *is_hiding = *is_hiding || self.bounds_piece(ring, &boundary, bounds);
+                let differs = |&style: &usize| paint(style) != paint(ring.style);
+                let may_hide = *hides || covering.iter().any(differs);
+                *is_hiding |= may_hide && self.bounds_piece(ring, &boundary, bounds);
             }
         }
         is_hiding
@@ -116,36 +124,48 @@ impl InnerContent<'_> {
         }
     }
 
-    /// Marks the pieces that areas cover in part, and those of which areas cover a hole.
-    fn find_areas(&self, pieces: &[(&Region, Bounds)], hides: &mut [bool]) {
-        let areas: Vec<(&WindingRings, Bounds)> = (self.areas.iter())
-            .filter_map(|&rings| Some((rings, Bounds::of(rings.iter().flatten().copied())?)))
+    /// Marks the pieces that areas cover in part, and those of which areas cover a hole. Returns for
+    /// each of the other pieces the styles of the areas that cover it.
+    fn find_areas(&self, pieces: &[(&Region, Bounds)], hides: &mut [bool]) -> Vec<Vec<usize>> {
+        let areas: Vec<(&OutlinedArea, Bounds)> = (self.areas.iter())
+            .filter_map(|area| Some((area, Bounds::of(area.rings.iter().flatten().copied())?)))
             .collect();
-        for ((piece, bounds), hides) in pieces.iter().zip(hides) {
+        let mut covering = vec![Vec::new(); pieces.len()];
+        let found = pieces.iter().zip(hides).zip(&mut covering);
+        for (((piece, bounds), hides), covering) in found {
             if *hides {
                 continue;
             }
             let near = areas.iter().filter(|(_, area)| area.meets(bounds));
-            let near: WindingRings = near.flat_map(|(rings, _)| rings.iter().cloned()).collect();
+            let near: Vec<&OutlinedArea> = near.map(|(area, _)| *area).collect();
             if near.is_empty() {
                 continue;
             }
-            let covered =
-                |rings: WindingRings| area_of(&boolean(&rings, &near, OverlayRule::Intersect));
+            let all: WindingRings = near.iter().flat_map(|area| area.rings.clone()).collect();
+            let covered = |rings: &WindingRings, by: &WindingRings| {
+                area_of(&boolean(rings, by, OverlayRule::Intersect))
+            };
             let whole: WindingRings = piece.rings().map(|ring| ring.points().to_vec()).collect();
             // Curves of the area and of the outline may be flattened differently.
             let slack = |perimeter: f64| 2.0 * self.tolerance * perimeter;
             let margin = slack(piece.rings().map(|ring| ring.perimeter()).sum());
-            let inside = covered(whole);
+            let inside = covered(&whole, &all);
             let covers_hole = || {
                 piece.holes.iter().any(|hole| {
                     let hole = hole.clone().reversed();
-                    let area = covered(vec![hole.points().to_vec()]);
+                    let area = covered(&vec![hole.points().to_vec()], &all);
                     area > hole.signed_area() - slack(hole.perimeter())
                 })
             };
             *hides = inside > margin && inside < piece.area() - margin || covers_hole();
+            if !*hides && inside > margin {
+                let covers = |area: &&&OutlinedArea| {
+                    near.len() == 1 || covered(&whole, &area.rings) > margin
+                };
+                covering.extend(near.iter().filter(covers).map(|area| area.style));
+            }
         }
+        covering
     }
 }
 
@@ -163,7 +183,7 @@ fn middle_of(points: &[DVec2]) -> DVec2 {
 }
 
 /// Returns the area of disjoint polygons with holes that run the other way.
-fn area_of(rings: &WindingRings) -> f64 {
+pub(super) fn area_of(rings: &WindingRings) -> f64 {
     rings
         .iter()
         .map(|ring| crate::geometry::signed_area(ring))

@@ -4,6 +4,7 @@
 /// Replaces the `%%` codes of a single line of text: symbols and numbered characters. Codes of
 /// under- and overlines are removed.
 pub(super) fn plain_text(text: &str) -> String {
+    let text = &without_carets(text);
     let mut result = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(at) = rest.find("%%") {
@@ -29,6 +30,29 @@ pub(super) fn plain_text(text: &str) -> String {
     result.chars().filter(|c| !c.is_control()).collect()
 }
 
+/// Replaces carets with the character after them by the character that they stand for.
+fn without_carets(text: &str) -> String {
+    let mut result = String::with_capacity(text.len());
+    let mut characters = text.chars();
+    while let Some(character) = characters.next() {
+        match character {
+            '^' => result.push(characters.next().map_or('^', after_caret)),
+            other => result.push(other),
+        }
+    }
+    result
+}
+
+/// Returns the character that a caret with a character after it stands for: "^I" is a tab, "^ " a
+/// caret and "^a" an exclamation mark.
+fn after_caret(character: char) -> char {
+    // Codes are shifted by 64, modulo 126.
+    match u8::try_from(character) {
+        Ok(code) if code.is_ascii() => char::from((code + 126 - 64) % 126),
+        _ => character,
+    }
+}
+
 /// Returns the text of an MTEXT without inline codes, with one line for each paragraph, and whether
 /// it had codes that change its appearance.
 pub(super) fn plain_mtext(text: &str) -> (String, bool) {
@@ -38,12 +62,12 @@ pub(super) fn plain_mtext(text: &str) -> (String, bool) {
     while let Some(character) = characters.next() {
         match character {
             '{' | '}' => {}
-            // A caret announces a control character; "^ " is a caret.
-            '^' => match characters.next() {
-                Some('J' | 'M') => result.push('\n'),
-                Some('I') => result.push(' '),
-                Some(' ') | None => result.push('^'),
-                Some(_) => {}
+            '^' => match characters.next().map(after_caret) {
+                Some('\n' | '\r') => result.push('\n'),
+                Some('\t') => result.push(' '),
+                // The lines are searched for carets again.
+                Some('^') | None => result.push_str("^ "),
+                Some(other) => result.push(other),
             },
             '\\' => match characters.next() {
                 Some('P' | 'N' | 'X') => result.push('\n'),
@@ -88,5 +112,7 @@ mod tests {
         assert_eq!(text, "AB\na\u{a0}b 1/2 \\ {c}");
         assert!(has_codes);
         assert_eq!(plain_mtext("a^Jb"), ("a\nb".to_owned(), false));
+        assert_eq!(plain_mtext("^a^0^ ^ ").0, "!n^^");
+        assert_eq!(plain_text("a^b^ ^Ic^"), "a\"^c^");
     }
 }

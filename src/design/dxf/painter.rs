@@ -5,10 +5,11 @@
 //! areas are stacked by containment, its lines lie above all areas, its letters above all lines.
 
 use super::band::Pen;
+use super::cover::{CoveredShape, CoveringAreas, TOUCHING};
 use super::encoding::decode;
 use super::error::DxfError;
 use super::expansion::DxfDrawing;
-use super::hidden_lines::{InnerContent, InnerLine};
+use super::hidden_lines::{InnerContent, InnerLine, area_of};
 use super::sheet::{OutlineRing, Sheet, SheetScale};
 use super::style::{DEFAULT_WEIGHT, ResolvedStyle};
 use crate::colour::Paint;
@@ -16,10 +17,11 @@ use crate::design::flatten::{Flattener, TooManyPoints};
 use crate::design::form::{Design, ImportedOutlines};
 use crate::design::note::{DxfNote, ImportNote};
 use crate::design::paint_layer::{PaintGroup, PaintLayer, stack_by_containment};
-use crate::design::svg::{WindingRings, union};
+use crate::design::svg::{WindingRings, boolean, union};
 use crate::design::unit::LengthUnit;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
-use std::collections::{BTreeMap, BTreeSet};
+use i_overlay::core::overlay_rule::OverlayRule;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
 /// Imported DXF drawing.
@@ -54,11 +56,15 @@ pub(super) fn paint(
         scale,
     };
     let mut notes = painter.line_notes(strokes);
+    let hidden = painter.remove_hidden_outlines();
+    notes.extend(hidden.map(ImportNote::Dxf));
     if strokes {
         let count = painter.open_hiding_outlines();
         notes.extend((count > 0).then_some(ImportNote::Dxf(DxfNote::OutlinesAsLines(count))));
     }
-    let groups = painter.groups()?;
+    let (groups, covered) = painter.groups()?;
+    notes.extend(filled_outlines(&groups).map(ImportNote::Dxf));
+    notes.extend(covered.into_iter().map(ImportNote::Dxf));
     let outlines = match painter.sheet.rings.is_empty() {
         true => None,
         false => match Regions::from_rings_reporting(&painter.ring_points(), FillRule::EvenOdd) {
@@ -67,7 +73,7 @@ pub(super) fn paint(
         },
     };
     let (outlines, mut repairs) = outlines.unzip();
-    let shown = groups.values().flat_map(|group| group.areas(strokes));
+    let shown = groups.iter().flat_map(|(_, group)| group.areas(strokes));
     let all = outlines
         .iter()
         .map(rings_of)
@@ -105,6 +111,8 @@ type GroupKey = (Rc<str>, [u8; 3], u64);
 /// rule.
 #[derive(Default)]
 struct StyledGroup {
+    /// Number of closed outlines.
+    count: usize,
     outlines: WindingRings,
     fills: WindingRings,
     lines: WindingRings,
@@ -192,6 +200,41 @@ impl SheetPainter {
             .collect()
     }
 
+    /// Removes each closed outline that an equal one on another layer or of another opaque paint
+    /// covers, which is drawn later.
+    fn remove_hidden_outlines(&mut self) -> Option<DxfNote> {
+        let bits = |p: &DVec2| [p.x, p.y].map(f64::to_bits);
+        let rings = &self.sheet.rings;
+        let mut order: Vec<usize> = (0..rings.len()).collect();
+        order.sort_by_key(|&ring| rings[ring].paths.iter().max().copied());
+        let style = |ring: usize| &self.drawing.styles[rings[ring].style];
+        let mut upper: HashMap<Vec<[u64; 2]>, usize> = HashMap::new();
+        let mut hidden = BTreeMap::new(); // for each hidden ring the ring that hides it
+        for ring in order.into_iter().rev() {
+            let points = rings[ring].points.iter().map(bits).collect();
+            let top = *upper.entry(points).or_insert(ring);
+            let [own, other] = [ring, top].map(style);
+            let differs = own.layer != other.layer || own.paint != other.paint;
+            if differs && other.paint.opacity >= 1.0 {
+                hidden.insert(ring, top);
+            }
+        }
+        let layers = |(&ring, &top): (&usize, &usize)| {
+            let [below, above] = [ring, top].map(|ring| style(ring).layer.to_string());
+            DxfNote::HiddenOutlines {
+                count: hidden.len(),
+                below,
+                above,
+            }
+        };
+        let note = hidden.first_key_value().map(layers);
+        let mut ring = 0..;
+        let is_shown =
+            |_: &OutlineRing| ring.next().is_some_and(|ring| !hidden.contains_key(&ring));
+        self.sheet.rings.retain(is_shown);
+        note
+    }
+
     /// Turns closed outlines that would hide something into lines; returns their number.
     fn open_hiding_outlines(&mut self) -> usize {
         let Ok((regions, _)) =
@@ -205,7 +248,8 @@ impl SheetPainter {
         });
         let content = InnerContent {
             lines: lines.collect(),
-            areas: self.sheet.areas.iter().map(|area| &area.rings).collect(),
+            areas: &self.sheet.areas,
+            styles: &self.drawing.styles,
             tolerance: self.scale.tolerance,
             rounding: self.scale.rounding,
         };
@@ -223,34 +267,56 @@ impl SheetPainter {
         hiding
     }
 
-    /// Returns the outlines, areas, lines and letters of each layer and paint.
-    fn groups(&self) -> Result<BTreeMap<GroupKey, StyledGroup>, TooManyPoints> {
-        /// Shapes of a group that are not united yet.
-        #[derive(Default)]
-        struct Parts {
-            outlines: WindingRings,
-            fills: Vec<WindingRings>,
-            lines: Vec<WindingRings>,
-            letters: Vec<WindingRings>,
-        }
-        let mut parts: BTreeMap<GroupKey, Parts> = BTreeMap::new();
-        let key = |style: usize| {
-            let ResolvedStyle { layer, paint, .. } = &self.drawing.styles[style];
-            (Rc::clone(layer), paint.colour.0, paint.opacity.to_bits())
-        };
+    /// Returns the outlines, areas, lines and letters of each layer and paint, in the order in which
+    /// the drawing uses them first. Also returns notes on what others cover.
+    fn groups(&self) -> Result<(Vec<(GroupKey, StyledGroup)>, Vec<DxfNote>), TooManyPoints> {
+        let mut parts: BTreeMap<GroupKey, GroupParts> = BTreeMap::new();
         for OutlineRing { points, style, .. } in &self.sheet.rings {
-            let group = parts.entry(key(*style)).or_default();
+            let group = parts.entry(self.group_key(*style)).or_default();
             group.outlines.push(points.clone());
         }
-        for area in &self.sheet.areas {
-            let group = parts.entry(key(area.style)).or_default();
-            let areas = if area.is_text {
-                &mut group.letters
-            } else {
-                &mut group.fills
-            };
-            areas.push(area.rings.clone());
+        let mut covering = CoveringAreas::of(&self.sheet.areas, &self.drawing.styles);
+        self.add_areas(&mut parts, &mut covering);
+        self.add_lines(&mut parts, &mut covering)?;
+        // Styles are numbered in the order of their first use.
+        let mut first_use = BTreeMap::new();
+        for style in (0..self.drawing.styles.len()).rev() {
+            first_use.insert(self.group_key(style), style);
         }
+        let parts = parts.into_iter();
+        let mut groups: Vec<_> = parts.map(|(key, parts)| (key, parts.united())).collect();
+        groups.sort_by_key(|(key, _)| first_use.get(key).copied());
+        Ok((groups, covering.notes()))
+    }
+
+    fn group_key(&self, style: usize) -> GroupKey {
+        let ResolvedStyle { layer, paint, .. } = &self.drawing.styles[style];
+        (Rc::clone(layer), paint.colour.0, paint.opacity.to_bits())
+    }
+
+    /// Adds the areas and the letters to their groups.
+    fn add_areas(&self, parts: &mut BTreeMap<GroupKey, GroupParts>, covering: &mut CoveringAreas) {
+        for area in &self.sheet.areas {
+            let rest = covering.rest_of(&CoveredShape {
+                rings: &area.rings,
+                order: area.order,
+                paint: self.drawing.styles[area.style].paint,
+                is_stacked: !area.is_text,
+            });
+            let group = parts.entry(self.group_key(area.style)).or_default();
+            match area.is_text {
+                true => group.letters.push(rest),
+                false => group.fills.push(rest),
+            }
+        }
+    }
+
+    /// Adds the strokes along the lines to their groups.
+    fn add_lines(
+        &self,
+        parts: &mut BTreeMap<GroupKey, GroupParts>,
+        covering: &mut CoveringAreas,
+    ) -> Result<(), TooManyPoints> {
         let mut flattener = Flattener::new(self.scale.tolerance);
         for &index in &self.sheet.lines {
             let path = &self.sheet.paths[index];
@@ -260,24 +326,57 @@ impl SheetPainter {
                 tolerance: self.scale.tolerance,
             };
             let stroke = pen.stroke(&path.points, path.is_closed, &mut flattener)?;
-            parts.entry(key(path.style)).or_default().lines.push(stroke);
+            let rest = covering.rest_of(&CoveredShape {
+                rings: &stroke,
+                order: path.order,
+                paint: self.style_of(index).paint,
+                is_stacked: false,
+            });
+            let group = parts.entry(self.group_key(path.style)).or_default();
+            group.lines.push(rest);
         }
-        let united = |parts: Parts| StyledGroup {
-            outlines: Regions::from_rings_reporting(&parts.outlines, FillRule::EvenOdd)
-                .map_or_else(|_| Vec::new(), |(regions, _)| rings_of(&regions)),
-            fills: union(parts.fills),
-            lines: union(parts.lines),
-            letters: union(parts.letters),
-        };
-        Ok(parts
-            .into_iter()
-            .map(|(key, parts)| (key, united(parts)))
-            .collect())
+        Ok(())
     }
 }
 
+/// Shapes of a group that are not united yet.
+#[derive(Default)]
+struct GroupParts {
+    outlines: WindingRings,
+    fills: Vec<WindingRings>,
+    lines: Vec<WindingRings>,
+    letters: Vec<WindingRings>,
+}
+
+impl GroupParts {
+    fn united(self) -> StyledGroup {
+        let outlines = Regions::from_rings_reporting(&self.outlines, FillRule::EvenOdd);
+        StyledGroup {
+            count: self.outlines.len(),
+            outlines: outlines.map_or_else(|_| Vec::new(), |(regions, _)| rings_of(&regions)),
+            fills: union(self.fills),
+            lines: union(self.lines),
+            letters: union(self.letters),
+        }
+    }
+}
+
+/// Returns a note on the outlines that are filled although no area of the same paint fills them.
+fn filled_outlines(groups: &[(GroupKey, StyledGroup)]) -> Option<DxfNote> {
+    let filled = groups.iter().filter(|(_, group)| {
+        let by_areas = boolean(&group.outlines, &group.fills, OverlayRule::Intersect);
+        area_of(&group.outlines) - area_of(&by_areas) > TOUCHING * area_of(&group.outlines)
+    });
+    let filled: Vec<_> = filled.collect();
+    let ((layer, ..), _) = filled.first()?;
+    Some(DxfNote::FilledOutlines {
+        count: filled.iter().map(|(_, group)| group.count).sum(),
+        layer: layer.to_string(),
+    })
+}
+
 /// Returns the paint layers of all groups, lowest first.
-fn paint_layers(groups: BTreeMap<GroupKey, StyledGroup>) -> Vec<PaintLayer> {
+fn paint_layers(groups: Vec<(GroupKey, StyledGroup)>) -> Vec<PaintLayer> {
     let regions = |rings: &WindingRings| Regions::from_rings(rings, FillRule::NonZero).ok();
     let (mut fills, mut lines, mut letters) = (Vec::new(), Vec::new(), Vec::new());
     for ((layer, rgb, opacity), group) in groups {

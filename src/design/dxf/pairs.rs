@@ -53,6 +53,12 @@ impl<'a> GroupPair<'a> {
         })
     }
 
+    /// Returns the value as a handle, which is a hexadecimal number.
+    pub fn handle(&self) -> Option<u64> {
+        let text = std::str::from_utf8(self.text()).ok()?;
+        u64::from_str_radix(text, 16).ok()
+    }
+
     /// Returns the value as an integer; a fraction is truncated.
     pub fn integer(&self) -> Result<i64, EntityFault> {
         Ok(self.real()? as i64)

@@ -21,6 +21,8 @@ pub(super) struct DxfRecord<'a> {
     /// Position of the record in the file.
     pub at: DxfPlace,
     pub pairs: Vec<GroupPair<'a>>,
+    /// Whether an MTEXT has columns, which an embedded object describes.
+    pub has_columns: bool,
 }
 
 impl<'a> DxfRecord<'a> {
@@ -47,6 +49,11 @@ impl<'a> DxfRecord<'a> {
     /// Returns the first text with the group code `code`, or an empty text if there is none.
     pub fn text(&self, code: i32) -> &'a [u8] {
         self.first(code).map_or(b"", GroupPair::text)
+    }
+
+    /// Returns the handle of the record; `None` if it has none.
+    pub fn handle(&self) -> Option<u64> {
+        self.first(5).and_then(GroupPair::handle)
     }
 
     /// Returns the point whose x, y and z have the group codes `code`, `code + 10` and `code + 20`.
@@ -166,6 +173,7 @@ impl<'a> RecordReader<'a> {
             kind: self.head.map_or(b"EOF", |head| head.text()),
             at: self.head.map_or(self.pairs.place(), |head| head.at),
             pairs: Vec::new(),
+            has_columns: false,
         };
         if record.kind == b"EOF" {
             return Ok(record); // data after the EOF record need not be DXF
@@ -184,16 +192,21 @@ impl<'a> RecordReader<'a> {
                     record.pairs.push(pair);
                     check_count(record.pairs.len(), MAX_PAIRS)?;
                 }
-                Some(_) => {}
+                Some(pair) => record.has_columns |= is_column_type(record.kind, &pair),
             }
         }
     }
+}
+
+/// Returns whether a pair of an embedded object is the type of the columns of an MTEXT.
+fn is_column_type(kind: &[u8], pair: &GroupPair) -> bool {
+    kind == b"MTEXT" && pair.code == 71 && pair.integer().is_ok_and(|kind| kind > 0)
 }
 
 /// Returns whether the importer uses pairs with this group code.
 fn is_stored(code: i32) -> bool {
     matches!(
         code,
-        1..=99 | 100 | 210..=239 | 370 | 420..=429 | 440 | 450..=469 | 1001 | 1071
+        1..=99 | 100 | 210..=239 | 331 | 370 | 420..=429 | 440 | 450..=469 | 1001 | 1071
     )
 }

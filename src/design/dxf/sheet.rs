@@ -35,6 +35,8 @@ pub(super) struct FlatPath {
     pub is_closed: bool,
     /// Index of the style.
     pub style: usize,
+    /// Position in the order of drawing.
+    pub order: usize,
 }
 
 /// Closed outline.
@@ -61,6 +63,8 @@ pub(super) struct OutlinedArea {
     pub is_text: bool,
     /// Index of the style.
     pub style: usize,
+    /// Position in the order of drawing.
+    pub order: usize,
 }
 
 /// Flattened drawing.
@@ -223,6 +227,7 @@ fn flatten_paths(paths: &[DxfPath], scale: SheetScale) -> Result<Vec<FlatPath>, 
                 is_closed: path.is_closed && points.len() > 2,
                 points,
                 style: path.style,
+                order: path.order,
             });
         }
     }
@@ -257,6 +262,7 @@ fn flatten_areas(areas: &[DxfArea], scale: SheetScale) -> Result<Vec<OutlinedAre
                 rings: regions.rings().map(|ring| ring.points().to_vec()).collect(),
                 is_text: area.is_text,
                 style: area.style,
+                order: area.order,
             });
         }
     }

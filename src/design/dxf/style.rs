@@ -107,6 +107,31 @@ impl EntityStyle {
     }
 }
 
+impl EntityStyle {
+    /// Returns the style of an attribute that belongs to a block reference: like the entities of
+    /// the block, it inherits the layer of the reference on layer 0, and its other attributes where
+    /// it says so.
+    pub fn of_attribute(self, reference: &Self) -> Self {
+        fn inherited<T: Clone>(own: Inheritable<T>, outer: &Inheritable<T>) -> Inheritable<T> {
+            match own {
+                Inheritable::OfBlock => outer.clone(),
+                own => own,
+            }
+        }
+        Self {
+            layer: match *self.layer == *OF_BLOCK {
+                true => Rc::clone(&reference.layer),
+                false => self.layer,
+            },
+            colour: inherited(self.colour, &reference.colour),
+            opacity: inherited(self.opacity, &reference.opacity),
+            weight: inherited(self.weight, &reference.weight),
+            line_type: inherited(self.line_type, &reference.line_type),
+            is_invisible: self.is_invisible,
+        }
+    }
+}
+
 /// Converts a transparency value (group code 440). Its highest byte says whether its lowest byte
 /// is an opacity.
 fn opacity(bits: i64) -> Inheritable<f64> {

@@ -126,6 +126,16 @@ impl TextReader {
             if has_codes {
                 remarks.push("drawn without its inline formatting".to_owned());
             }
+            let fill = record.integer(90)?;
+            if fill & 3 != 0 {
+                remarks.push("drawn without its background".to_owned());
+            }
+            if fill & 16 != 0 {
+                remarks.push("drawn without its frame".to_owned());
+            }
+            if record.has_columns {
+                remarks.push("drawn without its columns".to_owned());
+            }
             let stretch = style.map_or([1.0, 0.0], |style| [style.width, style.oblique]);
             self.paragraphs(record, &text, stretch, &mut remarks)?
         } else {

@@ -17,9 +17,31 @@ pub enum DxfNote {
         /// Smallest and largest width in drawing units.
         widths: [f64; 2],
     },
+    /// Closed outlines were filled, which DXF programs draw as lines.
+    FilledOutlines {
+        /// Number of outlines.
+        count: usize,
+        /// Layer of the first outline.
+        layer: String,
+    },
     /// Number of closed outlines that were drawn as lines, because a fill would hide the lines,
     /// text or fills inside them.
     OutlinesAsLines(usize),
+    /// Closed outlines were left out because equal outlines on other layers, or of other colours,
+    /// that are drawn later hide them.
+    HiddenOutlines {
+        /// Number of outlines.
+        count: usize,
+        /// Layer of the first outline.
+        below: String,
+        /// Layer of the outline that hides it.
+        above: String,
+    },
+    /// Number of fills, lines and texts that fills drawn later hide.
+    Covered(usize),
+    /// Some fills are stacked by containment instead of in the order of drawing, because too many
+    /// overlap.
+    OrderIgnored,
     /// Lines with dashes or symbols were drawn solid.
     SolidLines {
         /// Number of lines.
@@ -79,12 +101,38 @@ impl fmt::Display for DxfNote {
                 }
                 f.write_str(" drawing units wide; close them to fill their area")
             }
+            Self::FilledOutlines { count: 1, layer } => write!(
+                f,
+                "1 closed outline on layer {} filled; DXF programs draw it as a line",
+                SanitizedLine(layer)
+            ),
+            Self::FilledOutlines { count, layer } => write!(
+                f,
+                "{count} closed outlines filled, the first on layer {}; DXF programs draw them as lines",
+                SanitizedLine(layer)
+            ),
             Self::OutlinesAsLines(1) => f.write_str(
                 "1 closed outline drawn as a line, because a fill would hide what is drawn inside it",
             ),
             Self::OutlinesAsLines(n) => write!(
                 f,
                 "{n} closed outlines drawn as lines, because fills would hide what is drawn inside them"
+            ),
+            Self::HiddenOutlines {
+                count,
+                below,
+                above,
+            } => write!(
+                f,
+                "{count} closed {} hidden by equal ones drawn later, such as on layer {} by one on layer {}",
+                if *count == 1 { "outline" } else { "outlines" },
+                SanitizedLine(below),
+                SanitizedLine(above)
+            ),
+            Self::Covered(1) => f.write_str("1 fill, line or text hidden by fills drawn later"),
+            Self::Covered(n) => write!(f, "{n} fills, lines or texts hidden by fills drawn later"),
+            Self::OrderIgnored => f.write_str(
+                "too many fills overlap to draw all in their order; small ones lie on large ones",
             ),
             Self::SolidLines { count, types } => write!(
                 f,

@@ -26,7 +26,7 @@ fn a_hatch_has_holes_and_a_solid_is_no_bow_tie() {
     );
     let solid = "0 SOLID 8 0 10 70 20 10 11 100 21 10 12 70 22 50 13 100 23 50";
     let found = found(&format!("{donut} {solid}")).expect("fills");
-    assert_eq!(found.notes, []);
+    assert_eq!(words(&found), NONE);
     assert_eq!((found.regions.len(), found.regions.rings().count()), (2, 3));
     let areas: Vec<f64> = found.regions.iter().map(|piece| piece.area()).collect();
     let ring = 300.0 * PI;
@@ -84,7 +84,7 @@ fn all_edges_of_a_hatch_are_read() {
     ] {
         let found = found(&hatch(0, &[edges.to_owned()])).expect(edges);
         assert_near(found.regions.area(), area);
-        assert_eq!(found.notes, [], "{edges}");
+        assert_eq!(words(&found), NONE, "{edges}");
     }
 }
 
@@ -172,6 +172,222 @@ fn an_outline_drawn_twice_keeps_its_paint_layer() {
 }
 
 #[test]
+fn of_equal_outlines_on_two_layers_the_later_is_seen() {
+    // Two circles, once as a circle and once as two arcs, apart from a square.
+    let circle = "0 CIRCLE 8 below 62 1 10 0 20 0 40 4 ";
+    let arcs = "0 LWPOLYLINE 8 above 62 5 90 2 70 1 10 2.4 20 3.2 42 1 10 -2.4 20 -3.2 42 1 ";
+    let square = square_on("0", 20.0, 4.0, "");
+    let area = (16.0 * PI).round();
+    for (entities, colour, [hidden, seen]) in [
+        ([circle, arcs], [0, 0, 255], ["below", "above"]),
+        ([arcs, circle], [255, 0, 0], ["above", "below"]),
+    ] {
+        let entities = format!("{}{square}", entities.concat());
+        let layers = painted(&[("ENTITIES", &entities)]);
+        let round = layers.iter().filter(|layer| layer.2 != 16.0);
+        let round: Vec<_> = round.cloned().collect();
+        assert_eq!(round, [(Some(Rgb(colour)), seen.to_owned(), area)]);
+        assert_eq!(
+            words(&found(&entities).expect("two pieces")),
+            [format!(
+                "1 closed outline hidden by equal ones drawn later, such as on layer {hidden} by one on layer {seen}"
+            )]
+        );
+    }
+    // A translucent outline hides nothing.
+    let glass = format!("{circle}{}", arcs.replace("62 5", "62 5 440 33554559"));
+    assert_eq!(painted(&[("ENTITIES", &glass)]).len(), 2);
+}
+
+#[test]
+fn an_outline_does_not_hide_a_hatch_of_another_colour() {
+    let outline = "0 LWPOLYLINE 8 walls 90 4 70 1 10 0 20 0 10 30 20 0 10 30 20 20 10 0 20 20 ";
+    let hatch = "0 HATCH 8 floor 62 1 2 SOLID 70 1 91 1 92 3 72 0 73 1 93 4
+        10 0 20 0 10 30 20 0 10 30 20 20 10 0 20 20 97 0 75 0 ";
+    for entities in [[outline, hatch], [hatch, outline]] {
+        let found = found(&entities.concat()).expect("a hatch");
+        let layers: Vec<(&str, f64)> = found
+            .paint_layers
+            .iter()
+            .map(|layer| (layer.name.as_str(), layer.regions.area()))
+            .collect();
+        assert_eq!((layers[0].0, layers[1].0), ("floor", "walls"));
+        assert_near(layers[0].1, 600.0);
+        assert!(layers[1].1 < 10.0, "the outline is a line: {layers:?}");
+        assert!(
+            words(&found)
+                .iter()
+                .any(|note| note.starts_with("1 closed outline drawn as a line")),
+            "{:?}",
+            words(&found)
+        );
+    }
+    // Of the same colour, they are one area.
+    let same = format!("{outline}{}", hatch.replace("62 1", ""));
+    let found = found(&same).expect("a hatch");
+    assert_near(found.regions.area(), 600.0);
+    assert_eq!(words(&found), NONE);
+}
+
+#[test]
+fn filled_outlines_are_reported() {
+    let circle = "0 CIRCLE 8 posts 10 0 20 0 40 4 ";
+    let filled = |entities: &str| -> Vec<String> {
+        let notes = found(entities).expect("a shape").notes;
+        notes.iter().map(ToString::to_string).collect()
+    };
+    assert_eq!(
+        filled(circle),
+        ["1 closed outline on layer posts filled; DXF programs draw it as a line"]
+    );
+    assert_eq!(
+        filled(&format!("{SQUARE} 0 CIRCLE 8 posts 10 20 20 0 40 4")),
+        ["2 closed outlines filled, the first on layer 0; DXF programs draw them as lines"]
+    );
+    // The outline of a hatch in the same colour is not seen.
+    let hatch = hatch(0, &[circle_loop(3, 0.0, 4.0)]).replace("8 0", "8 posts");
+    assert_eq!(filled(&format!("{circle}{hatch}")), NONE);
+}
+
+#[test]
+fn of_equal_hatches_the_later_is_seen() {
+    let hatch = |layer: &str, colour: u32| {
+        hatch(0, &[circle_loop(3, 0.0, 5.0)]).replace("8 0 ", &format!("8 {layer} 62 {colour} "))
+    };
+    for [first, second] in [["a", "b"], ["b", "a"]] {
+        let entities = format!("{}{}", hatch(first, 1), hatch(second, 5));
+        let layers = painted(&[("ENTITIES", &entities)]);
+        let names: Vec<&str> = layers.iter().map(|layer| layer.1.as_str()).collect();
+        assert_eq!(names, [first, second]);
+    }
+}
+
+/// Returns a square solid with the lower left corner (x, y).
+fn solid(more: &str, [x, y, side]: [f64; 3]) -> String {
+    let (right, top) = (x + side, y + side);
+    format!(
+        "0 SOLID 8 0 {more} 10 {x} 20 {y} 11 {right} 21 {y} 12 {x} 22 {top} 13 {right} 23 {top} "
+    )
+}
+
+/// Returns for each colour index the visible area of its paint layers, the lowest first.
+fn visible(found: &ImportedOutlines) -> Vec<(Rgb, f64)> {
+    let layers = found.paint_layers.iter().enumerate().map(|(k, layer)| {
+        let above = found.paint_layers[k + 1..].iter();
+        let above = above.flat_map(|upper| upper.regions.rings());
+        let above = above.map(|ring| ring.points().to_vec()).collect();
+        let own = layer.regions.rings().map(|ring| ring.points().to_vec());
+        let seen = crate::design::svg::boolean(
+            &own.collect(),
+            &above,
+            i_overlay::core::overlay_rule::OverlayRule::Difference,
+        );
+        let area = seen.iter().map(|ring| crate::geometry::signed_area(ring));
+        let colour = layer.paint.expect("a paint").colour;
+        (colour, (area.sum::<f64>().abs() * 100.0).round() / 100.0)
+    });
+    layers.collect()
+}
+
+#[test]
+fn later_fills_cover_earlier_ones() {
+    let (red, blue) = (Rgb([255, 0, 0]), Rgb([0, 0, 255]));
+    let small = |colour: u32| solid(&format!("62 {colour}"), [10.0, 10.0, 6.0]);
+    let large = |colour: u32| solid(&format!("62 {colour}"), [0.0, 0.0, 14.0]);
+    for (first, second, expected) in [
+        (small(1), large(5), [(red, 20.0), (blue, 196.0)]),
+        (large(5), small(1), [(blue, 180.0), (red, 36.0)]),
+        (small(5), large(1), [(blue, 20.0), (red, 196.0)]),
+    ] {
+        let found = found(&format!("{first}{second}")).expect("squares");
+        assert_eq!(words(&found), NONE);
+        let mut layers = visible(&found);
+        layers.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let mut expected = expected.to_vec();
+        expected.sort_by(|a, b| a.1.total_cmp(&b.1));
+        assert_eq!(layers, expected);
+        assert_near(found.regions.area(), 216.0);
+    }
+}
+
+#[test]
+fn what_fills_hide_is_left_out_and_reported() {
+    let cover = solid("62 5", [0.0, 0.0, 9.0]);
+    let below = [
+        solid("62 1", [2.0, 2.0, 3.0]),
+        "0 LINE 8 0 62 1 10 1 20 1 11 4 21 2 ".to_owned(),
+        "0 TEXT 8 0 62 1 10 2 20 2 40 3 1 H ".to_owned(),
+    ];
+    for entity in &below {
+        let found = found(&format!("{entity}{cover}")).expect("a square");
+        assert_eq!(found.paint_layers.len(), 1);
+        let is_reported = words(&found)
+            .iter()
+            .any(|note| note == "1 fill, line or text hidden by fills drawn later");
+        assert!(is_reported, "{:?}", words(&found));
+        let found = super::found(&format!("{cover}{entity}")).expect("a square");
+        assert_eq!(found.paint_layers.len(), 2, "drawn later, it is seen");
+    }
+    // A fill that is nested in an earlier one lies on it, which stays whole.
+    let nested = format!("{cover}{}", below[0]);
+    let found = found(&nested).expect("squares");
+    assert_near(found.paint_layers[0].regions.area(), 81.0);
+}
+
+#[test]
+fn a_table_of_the_order_of_drawing_is_followed() {
+    let entities = format!(
+        "{}{}",
+        solid("5 A1 62 5", [0.0, 0.0, 9.0]),
+        solid("5 A2 62 1", [6.0, 0.0, 9.0])
+    );
+    let table = "0 SORTENTSTABLE 5 C7 330 C6 100 AcDbSortentsTable 330 1F
+        331 A1 5 A2 331 A2 5 A1";
+    let blue = Rgb([0, 0, 255]);
+    let area = |objects: &str| {
+        let found = found_in(&[("ENTITIES", &entities), ("OBJECTS", objects)]);
+        let layers = visible(&found.expect("squares"));
+        layers.iter().find(|layer| layer.0 == blue).expect("blue").1
+    };
+    assert_eq!([area(""), area(table)], [54.0, 81.0]);
+}
+
+#[test]
+fn the_fill_of_an_mpolygon_has_a_colour_of_its_own() {
+    let boundary = "91 1 92 2 73 1 72 0 93 4 10 0 20 0 10 4 20 0 10 4 20 4 10 0 20 4";
+    let polygon = format!(
+        "0 MPOLYGON 8 0 62 1 70 1 10 0 20 0 2 SOLID 71 1 {boundary} 76 1 63 3 11 0 21 0 99 0"
+    );
+    let found = found(&polygon).expect("a square");
+    assert_eq!(visible(&found), [(Rgb([0, 255, 0]), 16.0)]);
+}
+
+#[test]
+fn attributes_inherit_from_their_block_reference() {
+    let tables = "0 TABLE 2 LAYER 0 LAYER 2 doors 62 1 0 LAYER 2 notes 62 3 0 ENDTAB";
+    let block = format!("0 BLOCK 2 B {} 0 ENDBLK", square_on("0", 0.0, 2.0, ""));
+    let reference = "0 INSERT 8 doors 2 B 62 5 66 1 10 0 20 0 ";
+    let attribute = |more: &str| format!("0 ATTRIB {more} 10 9 20 0 40 3 1 H 2 NR 70 0 0 SEQEND ");
+    for (more, layer, colour) in [
+        ("8 0", "doors", [255, 0, 0]),
+        ("8 0 62 0", "doors", [0, 0, 255]),
+        ("8 notes", "notes", [0, 255, 0]),
+        ("8 0 62 4", "doors", [0, 255, 255]),
+    ] {
+        let entities = format!("{reference}{}", attribute(more));
+        let sections = [
+            ("TABLES", tables),
+            ("BLOCKS", block.as_str()),
+            ("ENTITIES", &entities),
+        ];
+        let layers = found_in(&sections).expect("a letter").paint_layers;
+        let letter = layers.iter().find(|layer| layer.is_text).expect("a letter");
+        let found = (letter.name.as_str(), letter.paint.expect("a paint").colour);
+        assert_eq!(found, (layer, Rgb(colour)), "{more}");
+    }
+}
+
+#[test]
 fn opacity_is_read_and_inherited() {
     // 0x02000040 is an opacity of 64/255, 0x01000000 that of the block reference.
     let block = format!(
@@ -212,7 +428,7 @@ fn a_closed_spline_through_fit_points_passes_through_them() {
         .map(|p| format!("11 {} 21 {} ", p.x, p.y))
         .collect();
     let found = found(&format!("0 SPLINE 8 0 70 9 71 3 74 9 {pairs}")).expect("a ring");
-    assert_eq!(found.notes, []);
+    assert_eq!(words(&found), NONE);
     let ring = found.regions.rings().next().expect("a ring").clone();
     for p in points {
         assert!(ring.distance_squared(p).sqrt() < 1e-3, "{p}");

@@ -17,7 +17,7 @@ fn bounds(entities: &str) -> Bounds {
 #[test]
 fn text_is_drawn_in_capitals_of_its_height() {
     let found = lettered("0 TEXT 8 0 7 S 10 5 20 7 40 3 1 HE");
-    assert_eq!(found.notes, []);
+    assert_eq!(words(&found), NONE);
     assert_eq!(found.regions.len(), 2);
     assert!(found.paint_layers.iter().all(|layer| layer.is_text));
     let bounds = found.regions.bounds();
@@ -123,4 +123,25 @@ fn a_label_in_a_frame_is_seen() {
     let found = lettered(&format!("{frame} 0 TEXT 8 0 7 S 10 5 20 5 40 3 1 H"));
     assert_eq!(found.regions.len(), 2);
     assert!(found.regions.area() < 10.0);
+}
+
+#[test]
+fn frames_backgrounds_and_columns_of_texts_are_reported() {
+    let text = |more: &str| format!("0 MTEXT 8 0 10 0 20 0 40 3 1 H {more}");
+    for (more, feature) in [
+        ("90 1 63 1 45 1.5", "drawn without its background"),
+        ("90 16", "drawn without its frame"),
+        (
+            "101 Embedded_Object 70 1 71 2 72 3",
+            "drawn without its columns",
+        ),
+    ] {
+        let words = words(&found(&text(more)).expect("a letter"));
+        assert!(words.iter().any(|note| note.contains(feature)), "{words:?}");
+    }
+    let plain = words(&found(&text("101 Embedded_Object 70 1 71 0")).expect("a letter"));
+    assert!(
+        !plain.iter().any(|note| note.contains("MTEXT")),
+        "{plain:?}"
+    );
 }
