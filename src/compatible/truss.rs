@@ -28,6 +28,7 @@ mod bar_conflicts;
 mod blocks;
 mod error;
 mod panel_triangulation;
+mod relabelling;
 
 use crate::design::Truss;
 use crate::geometry::{DVec2, Side, SourceTarget, signed_area};
@@ -37,6 +38,7 @@ use blocks::PlanarBlocks;
 pub use error::TrussError;
 pub(super) use error::{MAX_PANEL_NODES, list_first};
 pub(super) use panel_triangulation::triangulate_panel;
+pub(crate) use relabelling::corresponding_nodes;
 use std::collections::HashSet;
 
 /// Faces as triples of node indices, and the bars that become two-point elements.
@@ -73,7 +75,10 @@ pub(super) fn triangulate_panels(
 }
 
 /// Checks that both trusses have the same number of nodes and the same bars, in any order.
-fn check_same_bars(source: &Truss, target: &Truss) -> Result<(), TrussError> {
+///
+/// # Errors
+/// [`TrussError::NodeCounts`] or [`TrussError::BarsDiffer`].
+pub(crate) fn check_same_bars(source: &Truss, target: &Truss) -> Result<(), TrussError> {
     let counts = [source.nodes().len(), target.nodes().len()];
     if counts[0] != counts[1] {
         return Err(TrussError::NodeCounts(counts));

@@ -106,6 +106,33 @@ impl Truss {
             .unwrap_or_else(|| unreachable!("a truss has a bar and so nodes"))
     }
 
+    /// Returns the truss with its nodes in another order: `order` lists the index of each node.
+    /// `None` if it does not list each node once.
+    #[must_use]
+    pub fn with_nodes_in_order(&self, order: &[u32]) -> Option<Self> {
+        let mut new_index = vec![None; self.0.nodes.len()];
+        for (index, &node) in order.iter().enumerate() {
+            let slot = new_index.get_mut(node as usize)?;
+            if slot.replace(index as u32).is_some() {
+                return None;
+            }
+        }
+        let renumbered = |node: &mut u32| -> Option<()> {
+            *node = new_index[*node as usize]?;
+            Some(())
+        };
+        let mut parts = self.0.clone();
+        parts.nodes = order
+            .iter()
+            .map(|&node| self.0.nodes[node as usize])
+            .collect();
+        parts.bars.iter_mut().flatten().try_for_each(renumbered)?;
+        let supports = parts.supports.iter_mut().map(|support| &mut support.node);
+        let loads = parts.loads.iter_mut().map(|load| &mut load.node);
+        supports.chain(loads).try_for_each(renumbered)?;
+        Some(Self(parts))
+    }
+
     /// Returns the truss transformed by a similarity. Forces are rotated and mirrored but keep
     /// their magnitude; supports still refer to the x and y axes of the plane.
     #[must_use]

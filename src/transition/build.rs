@@ -10,6 +10,7 @@ use super::plane;
 use super::solids;
 use super::spec::{TransitionSpec, bar_width};
 use super::transition::{RecordingSlot, Transition, TransitionData};
+use crate::compatible;
 use crate::content::{Content, ContentKind, FieldContent, PicturePair};
 use crate::design::{Design, DesignForm};
 use crate::field::Grid;
@@ -70,6 +71,8 @@ fn build_data(
 ) -> Result<TransitionData, BuildError> {
     // This check comes first because it is cheap. The application uses it to disable buttons.
     TransitionSpec::available(spec.method, &spec.source, &spec.target)?;
+    let renumbered = renumbered_nodes(spec);
+    let spec = renumbered.as_ref().unwrap_or(spec);
     let progress = &OverallProgress::new(progress).patient(spec.patient);
     if spec.method.warp() == WarpKind::Arap {
         // Each subdivision quadruples the number of faces; ten subdivisions give too many even for
@@ -106,6 +109,28 @@ fn build_data(
     Ok(data
         .with_paint_layers(&spec.options.coats)
         .with_part_times(&spec.options.parts))
+}
+
+/// Returns the specification with the nodes of the target truss in the order of the source, if both
+/// are the same truss with different numbers of its nodes.
+fn renumbered_nodes(spec: &TransitionSpec) -> Option<TransitionSpec> {
+    let (DesignForm::Truss(source), DesignForm::Truss(target)) =
+        (&spec.source.form, &spec.target.form)
+    else {
+        return None;
+    };
+    if compatible::check_same_bars(source, target).is_ok() {
+        return None;
+    }
+    let order = compatible::corresponding_nodes(source, target)?;
+    let target = Design {
+        form: target.with_nodes_in_order(&order)?.into(),
+        ..Design::clone(&spec.target)
+    };
+    let mut spec = spec.clone();
+    spec.target = Arc::new(target);
+    spec.notes.push(TransitionNote::NodesRenumbered);
+    Some(spec)
 }
 
 /// Builds the warp of solid designs, their content, and the box around all frames.

@@ -44,6 +44,8 @@ pub enum TransitionNote {
     PaintIgnored,
     /// A page was scaled to fit into the page of the first design.
     PageFitted(FittedPage),
+    /// The trusses number their nodes differently; the nodes were paired by their bars and positions.
+    NodesRenumbered,
     /// Parts are not paired by their names, because there are too many of them.
     NamesIgnored,
     /// Part timings were requested but ignored, because the method is not rigid parts.
@@ -98,6 +100,10 @@ impl fmt::Display for TransitionNote {
                 "the drawings are shown in one colour: they have too many colours or parts for distance fields; use fewer cells, or rigid parts"
             ),
             Self::PageFitted(page) => page.fmt(f),
+            Self::NodesRenumbered => write!(
+                f,
+                "the nodes of the trusses were paired by their bars and positions, because their numbers differ"
+            ),
             Self::NamesIgnored => write!(
                 f,
                 "parts are not paired by their names: there are too many of them; remove small parts, or use fewer cells"

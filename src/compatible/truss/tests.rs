@@ -99,6 +99,47 @@ fn a_concave_panel_takes_diagonals_valid_in_both() {
 }
 
 #[test]
+fn nodes_with_other_numbers_are_matched_by_bars_and_positions() {
+    // A braced ladder. Its graph has 2^6 symmetries: any two nodes above each other can be
+    // exchanged. The target is bent upwards and numbers its nodes differently.
+    let place = |k: usize| (k as f64 / 2.0).floor();
+    let flat: Vec<(f64, f64)> = (0..10).map(|k| (place(k), (k % 2) as f64)).collect();
+    let bent = flat
+        .iter()
+        .map(|&(x, y)| (1.1 * x, y + x * (4.0 - x) / 2.0));
+    let bent: Vec<(f64, f64)> = bent.collect();
+    let rungs = (0..5).map(|k| [2 * k, 2 * k + 1]);
+    let braces = (0..4).flat_map(|k| {
+        let [a, b, c, d] = [2 * k, 2 * k + 1, 2 * k + 2, 2 * k + 3];
+        [[a, c], [b, d], [a, d], [b, c]]
+    });
+    let bars: Vec<[u32; 2]> = rungs.chain(braces).collect();
+    let number = |node: u32| (7 * node + 3) % 10;
+    let mut shuffled = vec![(0.0, 0.0); 10];
+    for (node, &p) in bent.iter().enumerate() {
+        shuffled[number(node as u32) as usize] = p;
+    }
+    let renamed: Vec<[u32; 2]> = bars.iter().map(|bar| bar.map(number)).collect();
+    let (source, target) = (truss(&flat, &bars), truss(&shuffled, &renamed));
+    assert!(matches!(
+        panels(&source, &target),
+        Err(TrussError::BarsDiffer { .. })
+    ));
+    let order = corresponding_nodes(&source, &target).expect("the same truss");
+    assert_eq!(order, (0..10).map(number).collect::<Vec<u32>>());
+    let sorted = target.with_nodes_in_order(&order).expect("each node once");
+    assert_eq!(check_same_bars(&source, &sorted), Ok(()));
+    assert_eq!(sorted.nodes(), truss(&bent, &bars).nodes());
+    // With one bar moved, it is another truss.
+    let mut other = renamed;
+    other[0] = [number(0), number(9)];
+    assert_eq!(
+        corresponding_nodes(&source, &truss(&shuffled, &other)),
+        None
+    );
+}
+
+#[test]
 fn outer_pockets_stay_open() {
     // Outline of a U, made of seven unit squares. The gap between its arms must get no faces.
     let nodes = [
