@@ -53,6 +53,8 @@ pub(super) enum EntityShape {
 /// Reference to a block.
 #[derive(Debug)]
 pub(super) struct BlockReference {
+    /// Type name of the entity that refers to the block.
+    pub kind: String,
     /// Key of the name of the block.
     pub block: Vec<u8>,
     /// For each copy, the affine map from block coordinates to the coordinate system that contains
@@ -105,10 +107,13 @@ impl DxfRecord<'_> {
     /// by [`TextReader`](super::text::TextReader) because it needs the table of text styles.
     pub fn shape(&self) -> Result<ShapeOrReason, EntityFault> {
         Ok(Ok(match self.kind {
-            b"LINE" => open_path(DxfCurve::Line([
-                self.point(10)?.truncate(),
-                self.point(11)?.truncate(),
-            ])),
+            b"LINE" => {
+                let ends = [self.point(10)?, self.point(11)?].map(|p| p.truncate());
+                if ends[0] == ends[1] {
+                    return Err("it has no length".into());
+                }
+                open_path(DxfCurve::Line(ends))
+            }
             b"LWPOLYLINE" => self.light_polyline()?,
             b"CIRCLE" => self.arc(0.0, TAU)?,
             b"ARC" => {
@@ -362,6 +367,7 @@ impl DxfRecord<'_> {
 
     fn reference(&self, places: Vec<DAffine2>, uses_base_point: bool) -> EntityShape {
         EntityShape::Insert(BlockReference {
+            kind: String::from_utf8_lossy(self.kind).into_owned(),
             block: name_key(self.text(2)),
             places,
             uses_base_point,

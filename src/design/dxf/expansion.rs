@@ -235,7 +235,7 @@ impl<'b> BlockExpansion<'b> {
             }
         };
         let remark = EntityRemark {
-            kind: "INSERT".into(),
+            kind: reference.kind.clone(),
             what: fault.into(),
             at: reference.at,
             handle: String::new(),

@@ -4,9 +4,9 @@
 /// Replaces the `%%` codes of a single line of text: symbols and numbered characters. Codes of
 /// under- and overlines are removed.
 pub(super) fn plain_text(text: &str) -> String {
-    let text = &without_carets(text);
+    let text = without_carets(text);
     let mut result = String::with_capacity(text.len());
-    let mut rest = text;
+    let mut rest = text.as_str();
     while let Some(at) = rest.find("%%") {
         result.push_str(&rest[..at]);
         rest = &rest[at + 2..];
