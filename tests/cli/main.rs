@@ -4,6 +4,7 @@
 //! Needs no graphics card and no display.
 
 mod cli_fixture;
+mod hostile_names;
 mod output_files;
 mod pair_tables;
 mod videos;
