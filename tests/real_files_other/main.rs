@@ -4,6 +4,7 @@
 
 mod drawings;
 mod films;
+mod fonts;
 mod maps_and_meshes;
 mod pictures;
 
