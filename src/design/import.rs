@@ -115,7 +115,13 @@ fn read(
             ..read_drawing(bytes, element, options)?.into_design(name)
         },
         Format::Dxf => dxf::read(bytes, options)?.into_design(name),
-        Format::Obj => Design::new(name, obj::read(text(bytes)?)?),
+        Format::Obj => {
+            let (mesh, notes) = obj::read(text(bytes)?)?;
+            Design {
+                notes,
+                ..Design::new(name, mesh)
+            }
+        }
         Format::Polygons => polygons::read(text(bytes)?)?.into_design(name),
         Format::Truss => Design::new(name, Truss::from_json(text(bytes)?)?),
     })

@@ -1,7 +1,7 @@
 //! Importer of Wavefront OBJ files as plane triangle meshes.
 //!
-//! Reads `v` lines (vertices) and `f` lines (faces); ignores names, groups, materials, normals and
-//! texture coordinates. Vertices keep their number and order, so two files with the same `f` lines
+//! Reads `v` lines (vertices) and `f` lines (faces); ignores names, groups, normals and texture
+//! coordinates. Lines of other kinds, such as materials, curves and points, are reported. Vertices keep their number and order, so two files with the same `f` lines
 //! give the same connectivity. OBJ crates that renumber vertices by first use or per texture
 //! coordinate do not guarantee this, and lose the numbers that error messages need.
 //!
@@ -11,9 +11,11 @@
 //!
 //! [`CompatibleMesh::from_meshes`]: crate::compatible::CompatibleMesh::from_meshes
 
+use super::note::ImportNote;
 use crate::geometry::{DVec2, RANGE_MESSAGE, is_in_range};
 use crate::mesh::{MeshError, PolygonFaces, TriangleMesh};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// Error of importing an OBJ file. Lines, vertices and faces are counted from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -117,22 +119,68 @@ struct ObjParser {
     corners: Vec<i64>,
 }
 
-/// Imports the text of an OBJ file.
+/// Maximum number of kinds of lines that are reported (resource limit: a hostile file could give
+/// every line a new kind).
+const MAX_KINDS: usize = 20;
+
+/// Keywords of lines that change nothing in a plane mesh without materials: normals, texture
+/// coordinates, names, and how its surface is shaded and refined.
+const WITHOUT_EFFECT: [&str; 14] = [
+    "vn",
+    "vt",
+    "g",
+    "o",
+    "s",
+    "mg",
+    "mtllib",
+    "maplib",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "shadow_obj",
+    "trace_obj",
+];
+
+/// Imports the text of an OBJ file. Also returns notes on the lines that were ignored.
 ///
 /// # Errors
 /// Returns an [`ObjError`] that names the line, vertex or face that cannot be used.
-pub(super) fn read(text: &str) -> Result<TriangleMesh, ObjError> {
+pub(super) fn read(text: &str) -> Result<(TriangleMesh, Vec<ImportNote>), ObjError> {
     let mut parser = ObjParser::default();
+    let mut ignored = BTreeMap::new();
     for (line, words) in logical_lines(text) {
         let mut words = words.split_whitespace();
         let read = match words.next() {
             Some("v") => parser.vertex(words),
             Some("f") => parser.face(line, words),
+            Some(other) if !WITHOUT_EFFECT.contains(&other) => {
+                count_kind(&mut ignored, other);
+                Ok(())
+            }
             _ => Ok(()),
         };
         read.map_err(|fault| ObjError::Line { line, fault })?;
     }
-    parser.finish()
+    let notes = ImportNote::from_skipped(ignored).collect();
+    Ok((parser.finish()?, notes))
+}
+
+/// Counts a line of a kind that is ignored.
+fn count_kind(ignored: &mut BTreeMap<String, usize>, keyword: &str) {
+    let kind = match keyword {
+        "p" => "p (point)".to_owned(),
+        "l" => "l (line)".to_owned(),
+        "curv" | "curv2" => format!("{keyword} (curve)"),
+        "surf" => "surf (surface)".to_owned(),
+        "usemtl" => "usemtl (material)".to_owned(),
+        other => other.chars().take(24).collect(),
+    };
+    if ignored.len() < MAX_KINDS || ignored.contains_key(&kind) {
+        *ignored.entry(kind).or_default() += 1;
+    } else {
+        *ignored.entry("other".to_owned()).or_default() += 1;
+    }
 }
 
 /// Returns the numbered lines (from 1) without comments. A line that ends in a backslash is

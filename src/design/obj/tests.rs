@@ -13,6 +13,37 @@ fn vertex_order_is_preserved_and_quads_become_fans() {
     assert_eq!(relative.faces(), [[0, 1, 2]]);
 }
 
+fn read(text: &str) -> Result<TriangleMesh, ObjError> {
+    super::read(text).map(|(mesh, _)| mesh)
+}
+
+#[test]
+fn lines_that_are_ignored_are_reported() {
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    let words = |more: &str| -> Vec<String> {
+        let (_, notes) = super::read(&format!("{square}{more}")).expect("valid");
+        notes.iter().map(ToString::to_string).collect()
+    };
+    let harmless = "mtllib a.mtl\no a\ng b\ns off\nvt 0 0\nvn 0 0 1\n# l 1 2\n";
+    assert_eq!(words(harmless), [""; 0]);
+    for (more, note) in [
+        (
+            "l 1 2 3\nl 3 4\n",
+            "2 objects of type l (line) were ignored",
+        ),
+        ("p 1\n", "1 object of type p (point) was ignored"),
+        (
+            "usemtl red\n",
+            "1 object of type usemtl (material) was ignored",
+        ),
+        ("F 1 2 3\n", "1 object of type F was ignored"),
+    ] {
+        assert_eq!(words(more), [note]);
+    }
+    let many: String = (0..100).map(|k| format!("x{k}\n")).collect();
+    assert_eq!(words(&many).len(), MAX_KINDS + 1);
+}
+
 fn error(text: &str) -> ObjError {
     read(text).expect_err("bad")
 }
