@@ -18,30 +18,37 @@ def with_rlottie(film, size, frames):
     from PIL import Image
     from rlottie_python import LottieAnimation
 
-    animation = LottieAnimation.from_data(film)
-    for frame in frames:
-        pixels = animation.lottie_animation_render(frame, width=size[0], height=size[1])
-        # The colours are premultiplied, in the order blue, green, red.
-        yield Image.frombuffer("RGBa", size, pixels, "raw", "BGRa").convert("RGBA")
+    def play():
+        animation = LottieAnimation.from_data(film)
+        for frame in frames:
+            pixels = animation.lottie_animation_render(frame, width=size[0], height=size[1])
+            # The colours are premultiplied, in the order blue, green, red.
+            yield Image.frombuffer("RGBa", size, pixels, "raw", "BGRa").convert("RGBA")
+
+    return play()
 
 
 def with_thorvg(film, size, frames):
+    import PIL.Image  # used by get_pillow
     import thorvg_python as thorvg
 
-    engine = thorvg.Engine()
-    for frame in frames:
-        canvas = thorvg.SwCanvas(engine)
-        canvas.set_target(*size, cs=thorvg.Colorspace.ABGR8888S)
-        animation = thorvg.Animation(engine)
-        picture = animation.get_picture()
-        check(thorvg, picture.load_data(film.encode(), "lottie", None, True))
-        picture.set_size(*map(float, size))
-        # Frame 0 is the current one, and setting it again is refused.
-        animation.set_frame(float(frame))
-        canvas.add(picture)
-        canvas.draw(True)
-        canvas.sync()
-        yield canvas.get_pillow()
+    def play():
+        engine = thorvg.Engine()
+        for frame in frames:
+            canvas = thorvg.SwCanvas(engine)
+            canvas.set_target(*size, cs=thorvg.Colorspace.ABGR8888S)
+            animation = thorvg.Animation(engine)
+            picture = animation.get_picture()
+            check(thorvg, picture.load_data(film.encode(), "lottie", None, True))
+            picture.set_size(*map(float, size))
+            # Frame 0 is the current one, and setting it again is refused.
+            animation.set_frame(float(frame))
+            canvas.add(picture)
+            canvas.draw(True)
+            canvas.sync()
+            yield canvas.get_pillow()
+
+    return play()
 
 
 def check(thorvg, result):
@@ -53,13 +60,14 @@ def main():
     player, path, width, height, folder, *frames = sys.argv[1:]
     play = {"rlottie": with_rlottie, "thorvg": with_thorvg}[player]
     film = Path(path).read_text(encoding="utf-8")
-    pictures = play(film, (int(width), int(height)), map(round, map(float, frames)))
     try:
-        for number, picture in enumerate(pictures):
-            picture.save(Path(folder) / f"{number}.png")
-    except ImportError as error:
+        # An OSError means that a library of the player is missing.
+        pictures = play(film, (int(width), int(height)), map(round, map(float, frames)))
+    except (ImportError, OSError) as error:
         print(error, file=sys.stderr)
         sys.exit(NOT_INSTALLED)
+    for number, picture in enumerate(pictures):
+        picture.save(Path(folder) / f"{number}.png")
 
 
 if __name__ == "__main__":
