@@ -8,9 +8,11 @@
 pub(super) mod basic_shapes;
 pub(super) mod cascade;
 pub(super) mod colours;
+mod conditions;
 pub(super) mod math;
 pub(super) mod properties;
 mod selectors;
 pub(super) mod syntax;
+pub(super) mod tokens;
 pub(super) mod transforms;
 pub(super) mod variables;

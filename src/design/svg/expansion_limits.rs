@@ -113,7 +113,7 @@ impl<'c, 's> ElementReferences<'c, 's> {
         // The `href` of a link or an image makes no copies.
         let copies_href = matches!(
             node.tag_name().name(),
-            "use" | "pattern" | "mask" | "clipPath"
+            "use" | "pattern" | "mask" | "clipPath" | "linearGradient" | "radialGradient"
         );
         for attribute in node.attributes() {
             let value = attribute.value();
@@ -193,7 +193,11 @@ impl<'d, 'a> ExpansionCounter<'_, '_, 'd, 'a> {
         }
         self.sizes.insert(node.id(), None);
         let mut size = ExpandedSize {
-            elements: 1,
+            // Gradients draw nothing; they are visited because they may refer to each other.
+            elements: match node.tag_name().name() {
+                "linearGradient" | "radialGradient" | "stop" => 0,
+                _ => 1,
+            },
             levels: 1,
             text: match node.tag_name().name() {
                 "text" => self.cost_of_text(node),
@@ -245,9 +249,8 @@ impl<'d, 'a> ExpansionCounter<'_, '_, 'd, 'a> {
     /// Returns the element with an id, unless it is of a type that is never expanded.
     fn expanded_target(&self, id: &str) -> Option<Node<'d, 'a>> {
         let to = *self.ids.get(id)?;
-        // Gradients contain no drawn elements; filters are not drawn.
-        let unexpanded = ["linearGradient", "radialGradient", "filter"];
-        (!unexpanded.contains(&to.tag_name().name())).then_some(to)
+        // Filters are not drawn.
+        (to.tag_name().name() != "filter").then_some(to)
     }
 }
 

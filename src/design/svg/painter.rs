@@ -289,6 +289,7 @@ impl SvgPainter<'_> {
         clip: Option<&WindingRings>,
     ) -> Result<(), SvgError> {
         if self.depth == MAX_DEPTH {
+            self.approximate("content nested in patterns or masks", "left out");
             return Ok(());
         }
         let outer = std::mem::replace(&mut self.base, base);

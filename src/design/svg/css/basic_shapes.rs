@@ -3,7 +3,7 @@
 
 use super::math::{CssQuantityKind, LengthContext, PercentageBasis, evaluate};
 use super::properties::quoted;
-use super::syntax::{components, find_outside_brackets, split_outside_brackets};
+use super::tokens::{components, find_outside_brackets, split_outside_brackets};
 use crate::geometry::DVec2;
 
 /// Names of the boxes to which a shape may refer (CSS Box 4).

@@ -1,9 +1,9 @@
 //! The cascade (CSS Cascade 5): which declarations apply to an element, in which order.
 
+use super::conditions::media_matches;
 use super::selectors::{Selector, SelectorKey, SelectorMatcher, Specificity, parse};
-use super::syntax::{
-    Declaration, RuleList, StyleRule, media_matches, read_declarations, without_comments,
-};
+use super::syntax::{Declaration, RuleList, StyleRule, read_declarations};
+use super::tokens::without_comments;
 use crate::design::svg::lost_features::LostFeatures;
 use std::collections::HashMap;
 use usvg::roxmltree::{Document, Node};

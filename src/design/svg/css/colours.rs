@@ -1,7 +1,7 @@
 //! Colours (CSS Color 5): all notations that browsers read, converted to `#rrggbb` or `rgba(…)`.
 
-use super::math::{LengthContext, PercentageBasis, evaluate};
-use super::syntax::{components, split_outside_brackets};
+use super::math::{CssQuantityKind, LengthContext, PercentageBasis, evaluate};
+use super::tokens::{components, split_outside_brackets};
 use crate::colour::{Paint, Rgb};
 use color::{AlphaColor, ColorSpaceTag, DynamicColor, HueDirection, Rgba8, Srgb, parse_color};
 use std::str::FromStr;
@@ -119,9 +119,14 @@ impl ColourParser<'_> {
             let value = is_function.then(|| evaluate(part, self.context, PercentageBasis::One));
             value
                 .flatten()
-                .map_or(part.to_owned(), |found| found.value.to_string())
+                .map_or(part.to_owned(), |found| match found.kind {
+                    CssQuantityKind::Angle => format!("{}deg", found.value.to_degrees()),
+                    _ if part.contains('%') => format!("{}%", 100.0 * found.value),
+                    _ => found.value.to_string(),
+                })
         });
-        format!("{function}({})", plain.collect::<Vec<_>>().join(" "))
+        let plain = plain.collect::<Vec<_>>().join(" ").replace(" , ", ", ");
+        format!("{function}({plain})")
     }
 
     /// Mixes two colours: `in <space> [<hue> hue], <colour> [<percentage>], …`.
@@ -163,7 +168,9 @@ impl ColourParser<'_> {
     /// Parses a colour with an optional percentage before or after it.
     fn weighted(&self, text: &str, depth: usize) -> Option<(DynamicColor, Option<f64>)> {
         let words = components(text);
-        let weight = words.iter().position(|word| word.ends_with('%'));
+        let is_weight =
+            |word: &&str| word.ends_with('%') || word.starts_with("calc(") && word.contains('%');
+        let weight = words.iter().position(is_weight);
         let value = weight.map(|i| evaluate(words[i], self.context, PercentageBasis::One));
         let value = match value {
             Some(found) => Some(found?.value),
@@ -203,7 +210,7 @@ impl ColourParser<'_> {
             expression = replace_word(&expression, "alpha", f64::from(values[3]));
             evaluate(&expression, self.context, PercentageBasis::One).map(|found| {
                 match found.kind {
-                    super::math::CssQuantityKind::Angle => found.value.to_degrees(),
+                    CssQuantityKind::Angle => found.value.to_degrees(),
                     _ => found.value,
                 }
             })
@@ -214,8 +221,13 @@ impl ColourParser<'_> {
             _ => return None,
         };
         let mut components = [0.0_f32; 4];
-        for (component, word) in components.iter_mut().zip(channels) {
-            *component = (value(word)? / scale) as f32;
+        let whole = whole_channels(tag);
+        for ((component, word), whole) in components.iter_mut().zip(channels).zip(whole) {
+            *component = match *word {
+                "none" => 0.0,
+                word if word.contains('%') => (whole * value(word)?) as f32,
+                word => (value(word)? / scale) as f32,
+            };
         }
         components[3] = alpha.clamp(0.0, 1.0) as f32;
         Some(DynamicColor {
@@ -256,13 +268,30 @@ fn mixes_units(function: &str, arguments: &str) -> bool {
 fn relative_space(function: &str) -> Option<ColorSpaceTag> {
     match function {
         "rgb" | "rgba" => Some(ColorSpaceTag::Srgb),
-        "hsl" | "hsla" => Some(ColorSpaceTag::Hsl),
+        "hsla" => Some(ColorSpaceTag::Hsl),
         name => space(name),
     }
 }
 
 fn space(name: &str) -> Option<ColorSpaceTag> {
-    ColorSpaceTag::from_str(name).ok()
+    match name {
+        "hsl" => Some(ColorSpaceTag::Hsl),
+        "hwb" => Some(ColorSpaceTag::Hwb),
+        name => ColorSpaceTag::from_str(name).ok(),
+    }
+}
+
+/// Returns the values of the three channels of a colour space that count as 100 % (CSS Color 4,
+/// section 4.1 and following). Hues have no percentages.
+fn whole_channels(space: ColorSpaceTag) -> [f64; 3] {
+    match space {
+        ColorSpaceTag::Hsl | ColorSpaceTag::Hwb => [360.0, 100.0, 100.0],
+        ColorSpaceTag::Lab => [100.0, 125.0, 125.0],
+        ColorSpaceTag::Lch => [100.0, 150.0, 360.0],
+        ColorSpaceTag::Oklab => [1.0, 0.4, 0.4],
+        ColorSpaceTag::Oklch => [1.0, 0.4, 360.0],
+        _ => [1.0; 3],
+    }
 }
 
 /// Returns the names of the three channels of a colour space.
@@ -312,6 +341,14 @@ mod tests {
             ("rgb(from currentColor r g b / 0.5)", "rgba(0, 0, 255, 0.5)"),
             ("hsl(from red calc(h + 120) s l)", "#00ff00"),
             ("rgb(calc(100 + 55) 0 0)", "#9b0000"),
+            ("rgb(calc(25% + 25%) 0 0)", "#800000"),
+            ("hsl(calc(2 * 60deg) 100% 25%)", "#008000"),
+            ("hsl(120, calc(50% + 50%), 25%)", "#008000"),
+            ("hsl(from red h 100% 25%)", "#800000"),
+            ("rgb(from red 50% g none)", "#800000"),
+            ("hwb(from red 120 w b)", "#00ff00"),
+            ("color-mix(in srgb, red calc(10% + 15%), blue)", "#4000bf"),
+            ("color-mix(in hsl, red, lime)", "#ffff00"),
             ("CanvasText", "#000000"),
             ("transparent", "rgba(0, 0, 0, 0)"),
         ];

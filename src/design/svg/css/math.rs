@@ -1,7 +1,7 @@
 //! Numbers, lengths and angles with their units, and mathematical functions (CSS Values 4,
 //! sections 5, 6 and 10).
 
-use super::syntax::{components, find_outside_brackets};
+use super::tokens::{components, find_outside_brackets};
 use crate::geometry::DVec2;
 use std::f64::consts::PI;
 

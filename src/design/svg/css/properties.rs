@@ -3,7 +3,7 @@
 
 use super::colours::plain_colour;
 use super::math::{CssQuantityKind, LengthContext, PercentageBasis, evaluate, plain_lengths};
-use super::syntax::{components, find_outside_brackets};
+use super::tokens::{components, find_outside_brackets};
 
 /// Type of the values of a property.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -312,6 +312,7 @@ fn plain_paint(value: &str, context: &ValueContext) -> Option<String> {
         let (reference, fallback) = value.split_at(end);
         let fallback = match fallback.trim() {
             "" => String::new(),
+            fallback if is_reference(fallback) => return None,
             fallback => plain_paint(fallback, context)?,
         };
         return Some(format!("{reference} {fallback}").trim_end().to_owned());

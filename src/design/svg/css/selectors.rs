@@ -375,7 +375,7 @@ impl SelectorMatcher {
             NthIndex::Integer(number) => (0, number.value as i64),
             NthIndex::AnPlusB(index) => (i64::from(index.a), i64::from(index.b)),
         };
-        let offset = position as i64 - b;
+        let offset = (position as i64).saturating_sub(b);
         match a {
             0 => offset == 0,
             a => offset % a == 0 && offset / a >= 0,

@@ -2,7 +2,7 @@
 //! reduced to one affine map of the plane. Rotations out of the plane are projected in parallel.
 
 use super::math::{CssQuantity, CssQuantityKind, LengthContext, PercentageBasis, evaluate};
-use super::syntax::components;
+use super::tokens::components;
 use crate::geometry::{DAffine2, DVec2};
 use glam::{DMat4, DVec3, DVec4};
 
@@ -67,7 +67,7 @@ impl TransformReader {
         let mut rest = text.trim();
         while !rest.is_empty() && !rest.eq_ignore_ascii_case("none") {
             let (name, after) = rest.split_once('(')?;
-            let end = super::syntax::find_outside_brackets(after, ")")?;
+            let end = super::tokens::find_outside_brackets(after, ")")?;
             let spaced = spaced_arguments(&after[..end]);
             map *= self.function(&name.trim().to_ascii_lowercase(), &components(&spaced))?;
             rest = after[end + 1..].trim_start_matches(|c: char| c.is_whitespace() || c == ',');

@@ -1,6 +1,6 @@
 //! Custom properties and their substitution into values (CSS Custom Properties 1).
 
-use super::syntax::find_outside_brackets;
+use super::tokens::find_outside_brackets;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 

@@ -8,7 +8,7 @@ use crate::design::svg::opacity_groups::apply_group_opacity;
 use crate::design::svg::resolved_paint::affine;
 use crate::design::svg::shape::SvgShape;
 use crate::geometry::{Bounds, DAffine2, DVec2};
-use usvg::{Opacity, Path, Pattern};
+use usvg::{Group, Node, Opacity, Path, Pattern, Transform};
 
 /// Maximum number of tiles that are drawn (resource limit: fine hatchings would become thousands of
 /// parts).
@@ -38,8 +38,8 @@ impl SvgPainter<'_> {
         // The content is placed relative to the corner of the tile.
         let content = base.pre_translate(rect.x(), rect.y());
         let tile = self.rectangle([0.0, 0.0, w, h], content);
-        let shapes =
-            self.collect(|painter| painter.inner_tree(pattern.root(), content, Some(&tile)))?;
+        let (root, content) = scaled_content(pattern, content);
+        let shapes = self.collect(|painter| painter.inner_tree(root, content, Some(&tile)))?;
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
             return Ok(());
         };
@@ -75,6 +75,18 @@ impl SvgPainter<'_> {
             self.add_shape(shape.rings, shape.paint, shape.gradient);
         }
         Ok(())
+    }
+}
+
+/// Returns the group with the content of a pattern, and the map from its coordinates to the page,
+/// for the map `content` of the tile. If the content is scaled to a box, `usvg` puts it into a group
+/// without id and does not pass the transform of this group on to the content.
+fn scaled_content(pattern: &Pattern, content: Transform) -> (&Group, Transform) {
+    match pattern.root().children() {
+        [Node::Group(scaled)] if scaled.id().is_empty() && !scaled.transform().is_identity() => {
+            (scaled, content.pre_concat(scaled.transform()))
+        }
+        _ => (pattern.root(), content),
     }
 }
 

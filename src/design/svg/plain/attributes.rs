@@ -6,7 +6,7 @@ use super::element_style::{ElementStyle, PropertyValue};
 use super::inherited::{InheritedStyle, Overrides};
 use super::{PlainWriter, plain_id, push_escaped};
 use crate::design::svg::css::properties::{is_presentation_attribute, is_reference};
-use crate::design::svg::css::syntax::find_outside_brackets;
+use crate::design::svg::css::tokens::find_outside_brackets;
 use crate::design::svg::css::transforms::{ReferenceBox, TransformProperties, affine_map};
 use crate::design::svg::lost_features::element_label;
 use crate::geometry::DVec2;

@@ -6,7 +6,8 @@ use crate::design::svg::css::properties::{
     Property, ValueContext, ValueType, has_geometry, is_presentation_attribute, longhands,
     plain_value, property,
 };
-use crate::design::svg::css::syntax::{Declaration, components};
+use crate::design::svg::css::syntax::Declaration;
+use crate::design::svg::css::tokens::components;
 use crate::design::svg::css::variables::{
     Variables, computed_variables, has_references, substitute,
 };
@@ -123,6 +124,10 @@ impl ElementStyle {
 
     /// Adopts one presentation attribute. Its lengths need no units.
     fn set_attribute(&mut self, property: &'static Property, value: &str) {
+        let Some(value) = substituted(value, &self.variables) else {
+            return;
+        };
+        let value = value.as_str();
         let is_wide = INHERITING.contains(&value.trim()) || value.trim() == "initial";
         if is_wide {
             return self.set_wide_keyword(property, value.trim());
@@ -214,7 +219,8 @@ impl ElementStyle {
 
     /// Computes the value of `color`, to which other colours refer.
     fn set_colour(&mut self, node: Node, declared: &[DeclaredValue]) {
-        let attribute = node.attribute("color").map(str::to_owned);
+        let attribute = node.attribute("color");
+        let attribute = attribute.and_then(|value| substituted(value, &self.variables));
         let declared = declared.iter().rev().filter(|(name, _)| name == "color");
         let values = declared
             .filter_map(|(_, value)| value.clone())
@@ -279,15 +285,20 @@ fn variables(declarations: &[Declaration], parent: &Variables) -> Variables {
     computed_variables(&custom, parent)
 }
 
+/// Substitutes the variables in a value; `None` if one of them has no value.
+fn substituted(value: &str, variables: &Variables) -> Option<String> {
+    match has_references(value) {
+        true => substitute(value, &mut |name| variables.get(name).cloned()),
+        false => Some(value.to_owned()),
+    }
+}
+
 /// Substitutes variables and splits shorthands.
 fn declared_values(declarations: &[Declaration], variables: &Variables) -> Vec<DeclaredValue> {
     let plain = declarations.iter().filter(|d| !d.name.starts_with("--"));
     let mut declared = Vec::new();
     for Declaration { name, value, .. } in plain {
-        let value = match has_references(value) {
-            true => substitute(value, &mut |name| variables.get(name).cloned()),
-            false => Some(value.clone()),
-        };
+        let value = substituted(value, variables);
         let text = value.as_deref().unwrap_or_default();
         let split = longhands(name, text).into_iter();
         declared.extend(split.map(|(name, text)| (name, value.is_some().then_some(text))));
