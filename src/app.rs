@@ -69,6 +69,7 @@ pub mod testing {
     pub use super::editing::editor::{CutEnd, EditorGrab, EditorHandle, MatchEditor};
     pub use super::editing::panes::{EditorPanes, PaneView};
     pub use super::editing::sheet::{MatchSheet, PieceFate};
+    pub use super::files::drop::DroppedDesign;
     pub use super::files::file_dialog::{DialogPurpose, FileDialogRequest};
     pub use super::files::invitation::{Invitation, START_PROJECT};
     pub use super::files::project_actions::GalleryEntries;

@@ -98,8 +98,8 @@ pub fn handle_escape(
             views.editor.set_changed();
         } else if preferences.film_options {
             preferences.film_options = false;
-        } else if views.map.is_shown {
-            views.map.is_shown = false;
+        } else if views.map.bypass_change_detection().handle_escape() {
+            views.map.set_changed();
         } else if views.comparison.is_shown {
             views.comparison.is_shown = false;
         } else if !preferences.panels {

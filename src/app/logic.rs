@@ -44,6 +44,7 @@ use crate::app::presentation::presenter::Presentation;
 use crate::app::session::state::Session;
 use crate::app::stage_area::{AutoFit, StageArea};
 use crate::app::stage_sync;
+use crate::app::tool_views;
 use crate::app::unsaved_question;
 use crate::app::unsaved_question::UnsavedQuestion;
 use crate::app::view::frame_intervals;
@@ -184,10 +185,7 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
 /// Systems that open, change and save the project.
 fn project_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     (
-        opening::open,
-        // After `open`, which needs to know whether the invitation is still shown: it never
-        // adds a dropped design to the project that plays next to the invitation.
-        invitation::apply,
+        (opening::open, invitation::apply).chain(),
         opening::edit,
         actions::apply,
         film_measures::apply,
@@ -195,6 +193,7 @@ fn project_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyst
         suggestions::apply,
         opening::save,
         opening::poll,
+        tool_views::close_without_project,
         refresh::refresh,
     )
         .chain()

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource, Time};
+use bevy::prelude::{DetectChangesMut, Local, MessageReader, Res, ResMut, Resource, Time};
 
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
@@ -114,6 +114,23 @@ impl Notices {
         self.list.retain(|notice| notice.kind != kind);
     }
 
+    /// Removes the problems and notes of a project that is no longer open. Confirmations stay,
+    /// because an action such as saving may just have been confirmed.
+    pub fn leave_project(&mut self) {
+        self.list.retain(|notice| match notice.kind {
+            NoticeKind::Problem(_) | NoticeKind::Note => false,
+            NoticeKind::Confirmation | NoticeKind::FileWritten => true,
+        });
+    }
+
+    /// Removes notices about written files that no longer exist; returns whether there were any.
+    fn drop_missing_files(&mut self) -> bool {
+        let before = self.list.len();
+        let exists = |notice: &Notice| notice.file.as_ref().is_none_or(|file| file.exists());
+        self.list.retain(exists);
+        self.list.len() < before
+    }
+
     /// All notices, oldest first.
     #[must_use]
     pub fn list(&self) -> &[Notice] {
@@ -159,13 +176,18 @@ impl Notices {
     }
 }
 
-/// Removes dismissed and expired notices. Nothing expires while the panels are hidden, because the
-/// user cannot see the notices.
+/// Seconds between two checks whether the files of notices still exist (resource limit: each check
+/// reads the disk).
+const FILE_CHECK_SECS: f32 = 1.0;
+
+/// Removes dismissed and expired notices, and those about files that no longer exist. Nothing
+/// expires while the panels are hidden, because the user cannot see the notices.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     time: Res<Time>,
     preferences: Res<Preferences>,
     mut notices: ResMut<Notices>,
+    mut unchecked_secs: Local<f32>,
 ) {
     for intent in intents.read() {
         if let Intent::DismissNotice(id) = intent {
@@ -174,7 +196,13 @@ pub fn apply(
     }
     // Ageing is no visible change and must not trigger a redraw.
     let now = notices.bypass_change_detection();
-    if preferences.panels && now.age(time.delta_secs()) {
+    let mut is_changed = preferences.panels && now.age(time.delta_secs());
+    *unchecked_secs += time.delta_secs();
+    if *unchecked_secs >= FILE_CHECK_SECS {
+        *unchecked_secs = 0.0;
+        is_changed |= now.drop_missing_files();
+    }
+    if is_changed {
         notices.set_changed();
     }
 }
@@ -197,6 +225,22 @@ mod tests {
         assert!(
             notices.has_problem(NoticeTopic::Saving) && !notices.has_problem(NoticeTopic::Film)
         );
+    }
+
+    #[test]
+    fn notices_about_deleted_files_disappear() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [kept, gone] = ["kept.gif", "gone.gif"].map(|name| folder.path().join(name));
+        let mut notices = Notices::default();
+        for file in [&kept, &gone] {
+            std::fs::write(file, "").expect("a file");
+            notices.file_written(file.clone());
+        }
+        assert!(!notices.drop_missing_files());
+        std::fs::remove_file(&gone).expect("deleted");
+        assert!(notices.drop_missing_files());
+        assert_eq!(notices.list().len(), 1);
+        assert_eq!(notices.list()[0].file.as_ref(), Some(&kept));
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! Views that the user opens in place of the stage or to its right.
 
 use bevy::ecs::system::SystemParam;
-use bevy::prelude::ResMut;
+use bevy::prelude::{DetectChanges, Res, ResMut};
 
 use crate::app::compare::comparison::Comparison;
 use crate::app::editing::editor::MatchEditor;
 use crate::app::map::map_view::MapView;
+use crate::app::playback::player::Playback;
+use crate::app::session::state::Session;
 
 /// All views that the user opens in place of the stage or to its right.
 #[derive(SystemParam)]
@@ -30,4 +32,21 @@ impl ToolViews<'_> {
 #[must_use]
 pub const fn is_any_open(editor: &MatchEditor, comparison: &Comparison, map: &MapView) -> bool {
     editor.is_open || comparison.is_shown || map.is_shown
+}
+
+/// Closes all views and ends playback once the project has been closed, because there is nothing
+/// for them to show.
+pub fn close_without_project(
+    session: Res<Session>,
+    mut playback: ResMut<Playback>,
+    mut views: ToolViews,
+) {
+    if !session.is_changed() || session.project().is_some() || session.is_opening() {
+        return;
+    }
+    playback.rewind(session.timing());
+    if views.is_any_open() {
+        (views.editor.is_open, views.comparison.is_shown) = (false, false);
+        views.map.hide();
+    }
 }

@@ -8,7 +8,7 @@ use bevy::camera::visibility::{RenderLayers, VisibilitySystems};
 use bevy::camera::{CameraOutputMode, CompositingSpace};
 use bevy::prelude::*;
 use bevy::render::render_resource::BlendState;
-use bevy::window::{ExitCondition, WindowMode, WindowResizeConstraints};
+use bevy::window::{ExitCondition, PrimaryWindow, WindowMode, WindowResizeConstraints};
 use bevy::winit::{EventLoopProxyWrapper, WinitUserEvent};
 use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 
@@ -31,6 +31,7 @@ use crate::app::persistence::recent_files::{RecentFiles, StoredRecentFiles};
 use crate::app::presentation::presenter::fullscreen_mode;
 use crate::app::presentation::speaker_window;
 use crate::app::screen_fit::MIN_SIZE;
+use crate::app::session::state::Session;
 use crate::app::stage_area::INITIAL_SIZE;
 use crate::app::ui::draw::UiPlugin;
 use crate::app::view::{filmstrip, stage_camera};
@@ -155,11 +156,31 @@ fn first_intent(files: &[PathBuf]) -> Intent {
     bundled.map_or_else(|| Intent::Open(files.to_vec()), Intent::OpenGallery)
 }
 
+/// Keeps the title of the main window up to date: the title of the project, and a mark while it has
+/// unsaved changes.
+fn set_title(session: Res<Session>, mut window: Single<&mut Window, With<PrimaryWindow>>) {
+    if !session.is_changed() {
+        return;
+    }
+    let mark = if session.is_dirty() { "• " } else { "" };
+    let title = match session.title() {
+        title if title.is_empty() => APP_NAME.to_owned(),
+        title => format!("{mark}{title} – {APP_NAME}"),
+    };
+    // Compared first, because each write is sent to the window system.
+    if window.title != title {
+        window.title = title;
+    }
+}
+
+/// Name of the application in window titles.
+const APP_NAME: &str = "Morphospace";
+
 /// Properties of the main window; it starts in full screen if a talk starts at once.
 fn window(starts_talk: bool) -> WindowPlugin {
     WindowPlugin {
         primary_window: Some(Window {
-            title: "Morphospace".to_owned(),
+            title: APP_NAME.to_owned(),
             name: Some("morphospace".to_owned()),
             // Set here and not by a system, so that the window opens in full screen.
             mode: if starts_talk {
@@ -206,7 +227,7 @@ impl Plugin for WindowPlugins {
             .add_systems(
                 Update,
                 (
-                    escape::toggle_fullscreen,
+                    (escape::toggle_fullscreen, set_title),
                     (stage_camera::fit, stage_camera::place_camera).chain(),
                     (speaker_window::apply, speaker_window::follow).chain(),
                     (gallery_thumbnails::advance, filmstrip::follow),

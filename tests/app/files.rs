@@ -7,7 +7,10 @@ use std::path::Path;
 use crate::headless_window::{HeadlessWindow, gallery_names};
 use bevy::prelude::{Entity, With};
 use bevy::window::{FileDragAndDrop, WindowCloseRequested};
-use morphospace::app::testing::{Intent, OnStage, UnsavedAnswer, UnsavedQuestion};
+use morphospace::app::testing::{
+    DialogPurpose, DroppedDesign, FileDialogRequest, Intent, OnStage, UnsavedAnswer,
+    UnsavedQuestion,
+};
 use morphospace::content::Content;
 use morphospace::stage::{Blend, StageTransition};
 
@@ -55,7 +58,7 @@ fn two_designs_opened_together_play_at_once_and_projects_do_not() {
         file("b.svg", "0,0 3,0 3,9 0,9"),
     ];
     let mut window = HeadlessWindow::new();
-    window.send(Intent::Open(vec![a.clone()]));
+    window.send(Intent::OpenAlone(a.clone()));
     window.wait();
     assert!(!window.playback().is_playing(), "there is nothing to see");
     window.send(Intent::Open(vec![a, b]));
@@ -303,6 +306,51 @@ fn two_dropped_files_become_a_pair_and_a_single_one_asks() {
         Some(["small".to_owned(), "small".to_owned()])
     );
     assert!(window.session().is_dirty());
+}
+
+/// The single design about which the window asks; `None` if it does not ask.
+fn undecided_design(window: &HeadlessWindow) -> Option<&Path> {
+    window.0.world().resource::<DroppedDesign>().undecided()
+}
+
+#[test]
+fn a_single_design_asks_for_the_second_whether_it_is_dropped_or_chosen_in_the_dialog() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let small = write_square(folder.path(), "small.svg", 30);
+    let large = write_square(folder.path(), "large.svg", 80);
+    let choose = |window: &mut HeadlessWindow, file: &Path| {
+        window.send(Intent::AskOpen);
+        window.send(Intent::AnswerDialog(vec![file.to_owned()]));
+        (0..5).for_each(|_| window.update());
+    };
+    let is_chosen = |window: &mut HeadlessWindow| choose(window, &small);
+    let is_dropped = |window: &mut HeadlessWindow| drop_files(window, &[&small]);
+    let ways: [&dyn Fn(&mut HeadlessWindow); 2] = [&is_chosen, &is_dropped];
+    for open in ways {
+        for mut window in [HeadlessWindow::new(), HeadlessWindow::with_gallery()] {
+            open(&mut window);
+            assert_eq!(undecided_design(&window), Some(small.as_path()));
+            window.send(Intent::Escape);
+            assert_eq!(undecided_design(&window), None, "Esc cancels");
+            open(&mut window);
+            window.send(Intent::AskSecond(small.clone()));
+            let dialog = window.0.world().resource::<FileDialogRequest>();
+            assert_eq!(
+                dialog.purpose(),
+                Some(&DialogPurpose::Second(small.clone()))
+            );
+            assert_eq!(
+                dialog.folder(),
+                Some(folder.path()),
+                "it starts next to the first"
+            );
+            assert_eq!(undecided_design(&window), None);
+            window.send(Intent::AnswerDialog(vec![large.clone()]));
+            (0..5).for_each(|_| window.update());
+            window.wait();
+            assert_eq!(window.session().names_along_path(), ["small", "large"]);
+        }
+    }
 }
 
 #[test]

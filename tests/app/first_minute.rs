@@ -107,8 +107,14 @@ fn a_single_design_opened_from_the_invitation_is_not_added_to_the_example() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = started();
     window.wait();
-    window.send(Intent::Open(rectangles(folder.path(), 1)));
+    let file = rectangles(folder.path(), 1).remove(0);
+    window.send(Intent::Open(vec![file.clone()]));
     window.wait();
+    assert_eq!(window.session().gallery_name(), Some(START_PROJECT));
+    assert!(is_invited(&window), "the question comes first");
+    window.send(Intent::OpenAlone(file));
+    window.wait();
+    assert!(!is_invited(&window));
     assert_eq!(window.session().gallery_name(), None);
     let designs = window.session().all_designs();
     let names: Vec<&str> = designs.iter().map(|design| design.name.as_str()).collect();

@@ -140,7 +140,7 @@ fn help_and_questions_appear_with_hidden_panels() {
 }
 
 #[test]
-fn opening_a_third_design_asks_whether_to_add_or_replace() {
+fn opening_a_single_design_asks_for_the_second_or_for_its_place_in_the_film() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("more.json");
     std::fs::write(&path, "[[0,0],[4,0],[4,3],[0,3]]").expect("a file");
@@ -151,12 +151,12 @@ fn opening_a_third_design_asks_whether_to_add_or_replace() {
         .map(|whole| whole.designs.len());
     window.send(Intent::Open(vec![path.clone()]));
     let shown = overlay(&mut window);
-    for text in ["Add or replace a design", "Add at end", "Replace target"] {
+    for text in ["One design chosen", "Choose second …", "Add at end"] {
         assert!(shown.has_text(text), "{text}: {:?}", shown.texts);
     }
     window.send(Intent::InsertDesigns(9, vec![path]));
     window.wait();
-    assert!(!overlay(&mut window).has_text("Add or replace a design"));
+    assert!(!overlay(&mut window).has_text("One design chosen"));
     let after = window
         .session()
         .whole_project()

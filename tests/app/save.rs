@@ -132,6 +132,34 @@ fn saving_a_new_project_asks_for_a_file_and_confirms_where_it_is() {
 }
 
 #[test]
+fn the_save_dialog_opens_next_to_the_designs() {
+    let [elsewhere, folder] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    let files = ["a.json", "b.json"].map(|name| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, "[[0,0],[4,0],[4,3],[0,3]]").expect("a file");
+        file
+    });
+    let mut window = HeadlessWindow::with_gallery();
+    // The folder chosen last is another one.
+    window.send(Intent::AskOpen);
+    choose(&mut window, &[&elsewhere.path().join("none.morph")]);
+    window.send(Intent::Open(files.into()));
+    window.wait();
+    window.send(Intent::Save);
+    let dialog: &FileDialogRequest = window.0.world().resource();
+    assert!(matches!(dialog.purpose(), Some(DialogPurpose::Save(_))));
+    assert_eq!(dialog.folder(), Some(folder.path()));
+    choose(&mut window, &[]);
+    window.send(Intent::AskOpen);
+    let dialog: &FileDialogRequest = window.0.world().resource();
+    assert_eq!(
+        dialog.folder(),
+        Some(elsewhere.path()),
+        "a cancelled dialog does not change the folder chosen last"
+    );
+}
+
+#[test]
 fn cancelling_the_save_dialog_is_reported_and_cancels_closing() {
     let mut window = with_change();
     window.send(Intent::Close);

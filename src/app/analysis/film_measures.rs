@@ -9,14 +9,11 @@ use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
 use crate::app::analysis::is_same;
 use crate::app::analysis::transition_memo::TransitionMemo;
-use crate::app::input::gesture::Gesture;
 use crate::app::input::intent::Intent;
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::session::state::Session;
-use crate::measure::{FilmReport, Remedy, Verdict, film_report};
-use crate::project::Project;
+use crate::measure::{FilmReport, Verdict, film_report};
 use crate::transition::Transition;
-use crate::warp::WarpKind;
 use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan};
 
 /// Number of values of t at which a film is sampled for the check and the graphs: 0, 1 and 63
@@ -127,7 +124,10 @@ impl StageMeasures {
 const SAMPLING_SHARE: f64 = 0.8;
 
 /// Samples the film, then checks it for defects.
-fn measure_film(
+///
+/// # Errors
+/// [`Cancelled`] if the work was cancelled.
+pub fn measure_film(
     transition: &Transition,
     progress: &dyn Progress,
 ) -> Result<FilmMeasures, Cancelled> {
@@ -152,51 +152,11 @@ pub fn follow(session: Res<Session>, mut stage_measures: ResMut<StageMeasures>) 
     }
 }
 
-/// Applies a remedy chosen by the user, and restarts cancelled measuring.
-pub fn apply(
-    mut intents: MessageReader<Intent>,
-    mut session: ResMut<Session>,
-    mut stage_measures: ResMut<StageMeasures>,
-    gesture: Res<Gesture>,
-) {
+/// Restarts cancelled measuring.
+pub fn apply(mut intents: MessageReader<Intent>, mut stage_measures: ResMut<StageMeasures>) {
     for intent in intents.read() {
         if *intent == Intent::MeasureAgain && stage_measures.was_stopped() {
             *stage_measures = StageMeasures::default();
         }
-        let Intent::ApplyRemedy(index) = *intent else {
-            continue;
-        };
-        let findings = stage_measures.measures().map(|m| &m.verdict.findings);
-        let Some(finding) = findings.and_then(|all| all.get(index)) else {
-            continue;
-        };
-        let remedy = finding.remedy.clone();
-        session.change(gesture.id(), |project| {
-            apply_remedy(project, &remedy);
-        });
-    }
-}
-
-/// Whether a remedy can be applied with one click, because it was tested or is sure to help.
-#[must_use]
-pub fn is_one_click(remedy: &Remedy) -> bool {
-    matches!(
-        remedy,
-        Remedy::Change { .. } | Remedy::Lattices | Remedy::LetFold
-    )
-}
-
-/// Applies a remedy to the project's settings.
-fn apply_remedy(project: &mut Project, remedy: &Remedy) {
-    match remedy {
-        Remedy::Change { change, .. } => change.apply(&mut project.options),
-        Remedy::Lattices => {
-            project.warp = Some(WarpKind::Lattice);
-            project.options.lattice.fold_free = true;
-        }
-        Remedy::LetFold => project.options.lattice.fold_free = false,
-        // All other remedies need a decision by the user or a trial, so `is_one_click` gives them
-        // no button.
-        _ => {}
     }
 }

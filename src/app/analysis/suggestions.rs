@@ -1,5 +1,5 @@
 //! Suggestions: when the film has defects, tries changes of the settings in the background and
-//! offers those that reduce the defects.
+//! offers those that reduce the defects. The remedies of the findings are tried first.
 //!
 //! The film of each change is built and rated exactly as the film on the stage is. A suggestion is
 //! offered together with the defects that remain.
@@ -11,7 +11,9 @@ use std::time::{Duration, Instant};
 
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
-use crate::app::analysis::film_measures::{FILM_SAMPLES, StageMeasures};
+use crate::app::analysis::film_measures::{
+    FILM_SAMPLES, FilmMeasures, StageMeasures, measure_film,
+};
 use crate::app::analysis::is_same;
 use crate::app::input::gesture::Gesture;
 use crate::app::input::intent::Intent;
@@ -19,7 +21,9 @@ use crate::app::jobs::job::BackgroundJob;
 use crate::app::session::state::Session;
 use crate::content::ContentKind;
 use crate::correspondence::{HoleRule, PartRule};
-use crate::measure::{FilmRating, FilmReport, film_report};
+use crate::measure::{
+    FilmRating, FilmReport, Finding, FindingKind, Remedy, Verdict, film_report,
+};
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::settings::Choice;
 use crate::transition::{BuildError, DesignFit, Transition, TransitionMethod};
@@ -43,6 +47,45 @@ const MAX_ADDED_OVERSHOOT: f64 = 0.2;
 /// Value added to the overshoot of a suggestion that mirrors or rotates the target. It ranks the
 /// suggestion below similar ones that keep the target as drawn (heuristic).
 const CHANGED_TARGET_PENALTY: f64 = 0.25;
+
+/// Whether a remedy is a change of settings that can be tried and applied with one click.
+#[must_use]
+pub fn is_one_click(remedy: &Remedy) -> bool {
+    matches!(
+        remedy,
+        Remedy::Change { .. } | Remedy::Lattices | Remedy::LetFold
+    )
+}
+
+/// Applies a remedy to the project's settings.
+fn apply_remedy(project: &mut Project, remedy: &Remedy) {
+    match remedy {
+        Remedy::Change { change, .. } => change.apply(&mut project.options),
+        Remedy::Lattices => {
+            project.warp = Some(WarpKind::Lattice);
+            project.options.lattice.fold_free = true;
+        }
+        Remedy::LetFold => project.options.lattice.fold_free = false,
+        // All other remedies need a decision by the user, so `is_one_click` gives them no button.
+        _ => {}
+    }
+}
+
+/// Whether a remedy for `finding` helps, given the results of the check without and with it: the
+/// defect becomes smaller, and no other kind of defect is new.
+fn removes(finding: &Finding, before: &Verdict, after: &Verdict) -> bool {
+    let of_kind = |verdict: &Verdict, kind: &FindingKind| -> Option<f64> {
+        let same = verdict.findings.iter().map(|found| &found.trouble);
+        let extents = same.filter(|found| found.is_same_kind(kind));
+        extents.map(FindingKind::extent).reduce(f64::max)
+    };
+    let remaining = of_kind(after, &finding.trouble).unwrap_or(0.0);
+    remaining < finding.trouble.extent()
+        && after
+            .findings
+            .iter()
+            .all(|found| of_kind(before, &found.trouble).is_some())
+}
 
 /// A change of the settings that may remove defects.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -184,14 +227,23 @@ pub struct Suggestions {
     rating: Option<FilmRating>,
     /// Suggestions so far, best first.
     suggestions: Vec<Suggestion>,
+    /// Remedies of the findings that were tried and help.
+    remedies: Vec<Remedy>,
     is_done: bool,
+}
+
+/// A change that was tried and helps.
+#[derive(Debug)]
+enum HelpfulChange {
+    Suggestion(Suggestion),
+    Remedy(Remedy),
 }
 
 /// A running search for suggestions, which arrive through a channel.
 #[derive(Debug)]
 struct SuggestionJob {
     job: BackgroundJob<(), ProjectError>,
-    receiver: Mutex<Receiver<Suggestion>>,
+    receiver: Mutex<Receiver<HelpfulChange>>,
 }
 
 impl Suggestions {
@@ -199,6 +251,18 @@ impl Suggestions {
     #[must_use]
     pub fn suggestions(&self) -> &[Suggestion] {
         &self.suggestions[..self.suggestions.len().min(MAX_SUGGESTIONS)]
+    }
+
+    /// Whether this remedy of a finding was tried and helps.
+    #[must_use]
+    pub fn offers(&self, remedy: &Remedy) -> bool {
+        self.remedies.contains(remedy)
+    }
+
+    /// Whether a remedy of a finding was tried and helps.
+    #[must_use]
+    pub fn has_remedies(&self) -> bool {
+        !self.remedies.is_empty()
     }
 
     /// Rating of the film on the stage, comparable with the ratings of the suggestions; `None`
@@ -234,17 +298,22 @@ impl Suggestions {
     }
 
     /// Starts a search for the film on the stage, given its measures.
-    fn start(&mut self, session: &Session, film: &FilmReport) {
+    fn start(&mut self, session: &Session, measures: &FilmMeasures) {
         self.since = None;
         self.suggestions.clear();
-        self.rating = self.transition.as_ref().and_then(|of| rating(of, film));
-        let Some((staged, now)) = session.staged_segment().zip(self.rating) else {
+        self.remedies.clear();
+        let transition = self.transition.as_ref();
+        self.rating = transition.and_then(|of| rating(of, &measures.film));
+        let Some(staged) = session.staged_segment() else {
             self.is_done = true;
             return;
         };
         let (sender, receiver) = channel();
+        let (rating, verdict) = (self.rating, measures.verdict.clone());
         let job = BackgroundJob::start("the search for suggestions", move |progress| {
-            try_all(&staged, &now, &sender, progress)
+            try_remedies(&staged, &verdict, &sender, progress)?;
+            // Pictures have no rating by which other changes could be compared.
+            rating.map_or(Ok(()), |now| try_all(&staged, &now, &sender, progress))
         });
         self.search = Some(SuggestionJob {
             job,
@@ -264,10 +333,15 @@ impl Suggestions {
             .receiver
             .lock()
             .unwrap_or_else(PoisonError::into_inner);
-        let received: Vec<Suggestion> = receiver.try_iter().collect();
+        let received: Vec<HelpfulChange> = receiver.try_iter().collect();
         drop(receiver);
         let is_new = is_done || !received.is_empty();
-        self.suggestions.extend(received);
+        for change in received {
+            match change {
+                HelpfulChange::Suggestion(suggestion) => self.suggestions.push(suggestion),
+                HelpfulChange::Remedy(remedy) => self.remedies.push(remedy),
+            }
+        }
         self.suggestions.sort_by(Suggestion::compare);
         if is_done {
             self.search = None;
@@ -283,13 +357,48 @@ fn rating(transition: &Transition, film: &FilmReport) -> Option<FilmRating> {
     (content != ContentKind::Colours).then(|| FilmRating::of_report(film, content))
 }
 
+/// Builds and checks the film of each remedy of the findings that needs no further input; sends
+/// those that help.
+fn try_remedies(
+    loaded: &LoadedProject,
+    before: &Verdict,
+    sender: &Sender<HelpfulChange>,
+    progress: &dyn Progress,
+) -> Result<(), ProjectError> {
+    let mut tried: Vec<&Remedy> = Vec::new();
+    for finding in &before.findings {
+        let remedy = &finding.remedy;
+        if !is_one_click(remedy) || tried.contains(&remedy) {
+            continue;
+        }
+        tried.push(remedy);
+        let mut other = loaded.clone();
+        apply_remedy(&mut other.project, remedy);
+        if other.project == loaded.project {
+            continue;
+        }
+        let built = Transition::build(&other.spec()?, progress);
+        check_cancelled(progress).map_err(BuildError::from)?;
+        // A remedy whose film cannot be built does not help.
+        let Ok(built) = built else {
+            continue;
+        };
+        let measures = measure_film(&built, progress).map_err(BuildError::from)?;
+        if removes(finding, before, &measures.verdict) {
+            // Sending fails once the search has been cancelled.
+            sender.send(HelpfulChange::Remedy(remedy.clone())).ok();
+        }
+    }
+    Ok(())
+}
+
 /// Builds and rates the film of each change. Sends a suggestion for each change that has fewer
 /// defects than `now`, the rating of the film on the stage, without much more overshoot. Stops
 /// early when enough films are flawless.
 fn try_all(
     loaded: &LoadedProject,
     now: &FilmRating,
-    sender: &Sender<Suggestion>,
+    sender: &Sender<HelpfulChange>,
     progress: &dyn Progress,
 ) -> Result<(), ProjectError> {
     let mut flawless = 0;
@@ -313,7 +422,7 @@ fn try_all(
         if suggestion.helps(now) {
             flawless += usize::from(rating.is_flawless());
             // Sending fails once the search has been cancelled.
-            sender.send(suggestion).ok();
+            sender.send(HelpfulChange::Suggestion(suggestion)).ok();
         }
         if flawless >= MAX_SUGGESTIONS {
             break;
@@ -352,7 +461,7 @@ pub fn follow(
         Some(defective) if now.search.is_none() && !now.is_done => {
             let since = *now.since.get_or_insert_with(Instant::now);
             if since.elapsed() >= SEARCH_DELAY {
-                now.start(&session, &defective.film);
+                now.start(&session, defective);
             }
         }
         Some(_) => {}
@@ -362,19 +471,31 @@ pub fn follow(
     }
 }
 
-/// Applies a suggestion chosen by the user.
+/// Applies a suggestion or a remedy chosen by the user; a remedy only if it was tried and helps.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
+    measured: Res<StageMeasures>,
     suggestions: Res<Suggestions>,
     gesture: Res<Gesture>,
 ) {
     for intent in intents.read() {
-        let Intent::ApplySuggestion(index) = *intent else {
-            continue;
-        };
-        if let Some(suggestion) = suggestions.suggestions().get(index) {
-            session.change(gesture.id(), |project| suggestion.change.apply(project));
+        match *intent {
+            Intent::ApplySuggestion(index) => {
+                if let Some(suggestion) = suggestions.suggestions().get(index) {
+                    session.change(gesture.id(), |project| suggestion.change.apply(project));
+                }
+            }
+            Intent::ApplyRemedy(index) => {
+                let findings = measured.measures().map(|m| &m.verdict.findings);
+                let finding = findings.and_then(|all| all.get(index));
+                if let Some(finding) = finding.filter(|of| suggestions.offers(&of.remedy)) {
+                    session.change(gesture.id(), |project| {
+                        apply_remedy(project, &finding.remedy);
+                    });
+                }
+            }
+            _ => {}
         }
     }
 }

@@ -1,4 +1,5 @@
-//! Handles files dropped on the window.
+//! Handles files dropped on the window, and holds a single design for which the user is asked where
+//! it goes.
 
 use std::path::{Path, PathBuf};
 
@@ -10,8 +11,8 @@ use crate::app::persistence::autosave::Autosave;
 use crate::app::presentation::presenter::Presentation;
 use crate::app::unsaved_question::UnsavedQuestion;
 
-/// A single dropped or opened design, while the user is asked whether it replaces a design of the
-/// open project or is added to it.
+/// A single dropped or opened design, while the user is asked for the second design of its film, or
+/// whether it is added to the open project.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct DroppedDesign {
     undecided: Option<PathBuf>,
@@ -30,10 +31,14 @@ impl DroppedDesign {
         self.undecided.is_some()
     }
 
-    /// Asks the user whether this single design replaces a design of the open project or is added
-    /// to it.
+    /// Asks the user where this single design goes.
     pub fn ask(&mut self, path: PathBuf) {
         self.undecided = Some(path);
+    }
+
+    /// Closes the question, if it is open.
+    pub fn close(&mut self) {
+        self.undecided = None;
     }
 }
 
@@ -82,7 +87,8 @@ pub fn read_drops(
     intents.write(Intent::Open(files));
 }
 
-/// Closes the question about a single design once it is answered.
+/// Closes the question about a single design once it is answered. The system that opens designs
+/// closes it as well, because it knows which of them are asked about.
 pub fn close_drop_question(
     mut intents: MessageReader<Intent>,
     mut dropped: ResMut<DroppedDesign>,
@@ -95,11 +101,11 @@ pub fn close_drop_question(
         Intent::Escape => is_topmost,
         intent => matches!(
             intent,
-            Intent::Open(..) | Intent::ReplaceDesign(..) | Intent::InsertDesigns(..)
+            Intent::ReplaceDesign(..) | Intent::InsertDesigns(..) | Intent::AskSecond(_)
         ),
     };
     if intents.read().filter(|intent| is_decided(intent)).count() > 0 && dropped.is_pending() {
-        dropped.undecided = None;
+        dropped.close();
     }
 }
 

@@ -20,6 +20,8 @@ use crate::project::Project;
 pub enum DialogPurpose {
     /// Open a project or designs.
     Open,
+    /// Open this design together with others, which the dialog asks for.
+    Second(PathBuf),
     /// Replace the design with this index.
     Replace(usize),
     /// Insert designs before the design with this index, or after all designs if the index equals
@@ -35,6 +37,7 @@ impl DialogPurpose {
     pub fn title(&self) -> &'static str {
         match self {
             Self::Open => "Open a project or designs",
+            Self::Second(_) => "Choose the second design",
             Self::Replace(_) => "Replace file",
             Self::Insert(_) => "Add designs",
             Self::Save(_) => "Save project",
@@ -49,7 +52,7 @@ impl DialogPurpose {
             Format::ALL.map(|format| (format.name().to_owned(), format.extensions().into()));
         match self {
             Self::Save(_) => vec![projects],
-            Self::Replace(_) | Self::Insert(_) => {
+            Self::Second(_) | Self::Replace(_) | Self::Insert(_) => {
                 let all = ("All designs".to_owned(), extensions());
                 [all].into_iter().chain(formats).collect()
             }
@@ -67,6 +70,8 @@ impl DialogPurpose {
 pub struct FileDialogRequest {
     purpose: Option<DialogPurpose>,
     folder: Option<PathBuf>,
+    /// Folder of the files that the user chose last.
+    last_folder: Option<PathBuf>,
 }
 
 impl FileDialogRequest {
@@ -76,8 +81,9 @@ impl FileDialogRequest {
         self.purpose.as_ref()
     }
 
-    /// Folder that the dialog shows when it opens: the folder that the user chose last, or else
-    /// that of the project, or else that of the user's documents.
+    /// Folder that the dialog shows when it opens. A project is saved in its folder or next to its
+    /// designs, and a second design is sought next to the first; otherwise it is the folder that
+    /// the user chose last, or else that of the project, or else that of the user's documents.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()
@@ -93,6 +99,7 @@ pub fn open(
     for intent in intents.read() {
         let purpose = match intent {
             Intent::AskOpen => DialogPurpose::Open,
+            Intent::AskSecond(first) => DialogPurpose::Second(first.clone()),
             Intent::AskReplace(index) => DialogPurpose::Replace(*index),
             Intent::AskInsert(at) => DialogPurpose::Insert(*at),
             Intent::SaveAs => DialogPurpose::Save(project_file_name(&session.file_stem())),
@@ -101,18 +108,34 @@ pub fn open(
             }
             _ => continue,
         };
-        let applies = session.project().is_some() || purpose == DialogPurpose::Open;
-        if dialog.purpose.is_none() && applies {
+        let needs_project = !matches!(purpose, DialogPurpose::Open | DialogPurpose::Second(_));
+        if dialog.purpose.is_none() && (session.project().is_some() || !needs_project) {
+            dialog.folder = first_folder(&purpose, dialog.last_folder.clone(), &session);
             dialog.purpose = Some(purpose);
-            // The project's folder, until the user chooses another one.
-            let project_folder = session.path().and_then(Path::parent).map(Path::to_owned);
-            dialog.folder = dialog
-                .folder
-                .take()
-                .or(project_folder)
-                .or_else(default_folder);
         }
     }
+}
+
+/// Folder that the dialog shows first. `last` is the folder that the user chose last.
+fn first_folder(
+    purpose: &DialogPurpose,
+    last: Option<PathBuf>,
+    session: &Session,
+) -> Option<PathBuf> {
+    match purpose {
+        DialogPurpose::Second(first) => parent(first),
+        DialogPurpose::Save(_) => session.folder(),
+        _ => None,
+    }
+    .or(last)
+    .or_else(|| session.folder())
+    .or_else(default_folder)
+}
+
+/// Folder that contains a file; `None` for a path without a folder.
+fn parent(file: &Path) -> Option<PathBuf> {
+    let folder = file.parent().filter(|folder| folder.is_dir());
+    folder.map(Path::to_owned)
 }
 
 /// The user's documents, or the home folder.
@@ -140,7 +163,7 @@ pub fn apply_choice(
         };
         let (purpose, first) = (dialog.purpose.take(), paths.first());
         if let Some(folder) = first.and_then(|path| path.parent()) {
-            dialog.folder = Some(folder.to_owned());
+            dialog.last_folder = Some(folder.to_owned());
         }
         match (purpose, first) {
             (Some(DialogPurpose::Save(_)), None) => {
@@ -150,6 +173,10 @@ pub fn apply_choice(
             (None, _) | (_, None) => {}
             (Some(DialogPurpose::Open), Some(_)) => {
                 commands.write_message(Intent::Open(paths.clone()));
+            }
+            (Some(DialogPurpose::Second(design)), Some(_)) => {
+                let designs = [design].into_iter().chain(paths.iter().cloned());
+                commands.write_message(Intent::Open(designs.collect()));
             }
             (Some(DialogPurpose::Replace(index)), Some(path)) => {
                 commands.write_message(Intent::ReplaceDesign(index, path.clone()));

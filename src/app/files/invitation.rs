@@ -2,9 +2,11 @@
 //! to it when the program starts without files. The panel itself is drawn in
 //! `app::ui::stage::invitation`.
 
-use bevy::prelude::{MessageReader, ResMut, Resource};
+use bevy::prelude::{MessageReader, Res, ResMut, Resource};
 
 use crate::app::input::intent::{Intent, RecoveryAnswer};
+use crate::app::session::state::Session;
+use crate::project::Project;
 use crate::project::gallery::GalleryEntry;
 
 /// Gallery project that plays when the program starts without files: it is ready within a second,
@@ -52,18 +54,29 @@ pub fn examples(gallery: &[GalleryEntry]) -> Vec<&GalleryEntry> {
     EXAMPLES.iter().filter_map(entry).collect()
 }
 
-/// Shows the invitation at the start, and closes it as soon as the user opens anything.
-pub fn apply(mut intents: MessageReader<Intent>, mut invitation: ResMut<Invitation>) {
+/// Shows the invitation at the start and after the project was closed, and closes it as soon as the user opens anything.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    session: Res<Session>,
+    mut invitation: ResMut<Invitation>,
+) {
     for intent in intents.read() {
         match intent {
             Intent::Welcome => invitation.is_shown = true,
+            Intent::New if session.project().is_none() => invitation.is_shown = true,
             Intent::CloseInvitation
+            | Intent::OpenAlone(_)
             | Intent::OpenGallery(_)
             | Intent::PlayGallery(_)
             | Intent::InsertDesigns(..)
             | Intent::ReplaceDesign(..)
             | Intent::AnswerRecovery(RecoveryAnswer::Restore) => invitation.is_shown = false,
-            Intent::Open(files) if !files.is_empty() => invitation.is_shown = false,
+            // A single design opens nothing yet: the user is asked for a second one.
+            Intent::Open(files) => match files.as_slice() {
+                [] => {}
+                [design] if !Project::has_document_extension(design) => {}
+                _ => invitation.is_shown = false,
+            },
             _ => {}
         }
     }

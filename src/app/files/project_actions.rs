@@ -1,6 +1,7 @@
 //! Systems that open, edit and save projects: they apply the intents that change the [`Session`]
 //! and report the results as notices.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,7 +12,7 @@ use bevy::prelude::{
 
 use crate::app::editing::editor::MatchEditor;
 use crate::app::files::drop::DroppedDesign;
-use crate::app::files::invitation::{Invitation, START_PROJECT};
+use crate::app::files::invitation::START_PROJECT;
 use crate::app::input::gesture::Gesture;
 use crate::app::input::intent::Intent;
 use crate::app::notices::{NoticeTopic, Notices};
@@ -38,10 +39,22 @@ pub fn open(
     mut drop: ResMut<DroppedDesign>,
     mut notices: ResMut<Notices>,
     mut to_play: ResMut<PlayWhenOpened>,
-    invitation: Res<Invitation>,
 ) {
     for intent in intents.read() {
+        if matches!(intent, Intent::Open(_)) {
+            // Files opened now replace those that the question is about.
+            drop.close();
+        }
         let request = match intent {
+            Intent::New => {
+                if session.is_dirty() {
+                    question.ask(intent.clone(), UnsavedKind::Changes, session.unsaved_text());
+                } else {
+                    session.close();
+                    notices.leave_project();
+                }
+                continue;
+            }
             Intent::OpenGallery(name) | Intent::PlayGallery(name) => {
                 LoadRequest::Gallery(name.clone())
             }
@@ -50,15 +63,11 @@ pub fn open(
                 [project] if Project::has_document_extension(project) => {
                     LoadRequest::File(project.clone())
                 }
-                // If a project is open, ask whether the single design replaces or extends its
-                // designs. A project that plays next to the invitation was not opened by the user,
-                // so it does not count.
-                [design] if session.project().is_some() && !invitation.is_shown() => {
+                // A film needs two designs.
+                [design] => {
                     drop.ask(design.clone());
                     continue;
                 }
-                // A single design is paired with itself until another one is added.
-                [design] => LoadRequest::Designs(vec![design.clone(), design.clone()]),
                 [] => continue,
                 // A project cannot be combined with other files.
                 _ if paths
@@ -70,6 +79,11 @@ pub fn open(
                 }
                 designs => LoadRequest::Designs(designs.to_vec()),
             },
+            // A single design is paired with itself until another one is added.
+            Intent::OpenAlone(design) => {
+                drop.close();
+                LoadRequest::Designs(vec![design.clone(), design.clone()])
+            }
             _ => continue,
         };
         if session.is_dirty() {
@@ -146,13 +160,19 @@ pub fn edit(
                 session.change(mark, |project| cycle_play_mode(&mut project.timing.play));
             }
             Intent::ReplaceDesign(index, path) => {
-                session.change_whole(mark, |project| replace_design(project, *index, path));
+                change_designs(&mut session, mark, |project| {
+                    replace_design(project, *index, path);
+                });
             }
             Intent::InsertDesigns(at, paths) => {
-                session.change_whole(mark, |project| insert_designs(project, *at, paths));
+                change_designs(&mut session, mark, |project| {
+                    insert_designs(project, *at, paths);
+                });
             }
             Intent::ReorderDesigns(designs) => {
-                session.change_whole(mark, |project| project.set_designs(designs.clone()));
+                change_designs(&mut session, mark, |project| {
+                    project.set_designs(designs.clone());
+                });
             }
             Intent::CloseLoop(closed) => {
                 session.change_whole(mark, |project| project.set_closed(*closed));
@@ -177,6 +197,22 @@ fn cycle_play_mode(mode: &mut PlayMode) {
         PlayMode::Loop => PlayMode::PingPong,
         PlayMode::PingPong => PlayMode::Once,
     };
+}
+
+/// Changes the designs of the project. A title that was given to other designs is dropped: the
+/// project is then named after its file or its designs.
+fn change_designs(session: &mut Session, mark: Option<u64>, change: impl FnOnce(&mut Project)) {
+    session.change_whole(mark, |project| {
+        let sorted_paths = |project: &Project| {
+            let designs = project.designs.iter();
+            designs.map(|entry| entry.path.clone()).collect::<BTreeSet<_>>()
+        };
+        let before = sorted_paths(project);
+        change(project);
+        if sorted_paths(project) != before {
+            project.title.clear();
+        }
+    });
 }
 
 /// Replaces a design's file and drops the settings that refer to points of the old design.
@@ -334,6 +370,7 @@ pub fn poll(
             return;
         }
         Some(WorkOutcome::Opened) => {
+            notices.leave_project();
             playback.rewind(session.timing());
             auto_fit.0 = true;
             // Newly opened designs play at once, and so does a gallery project that the user chose

@@ -75,6 +75,12 @@ pub enum Intent {
     PreviewFile(PathBuf),
     /// Open these files: one project, or designs that become a new project.
     Open(Vec<PathBuf>),
+    /// Open this single design, paired with itself.
+    OpenAlone(PathBuf),
+    /// Open the dialog that asks for the designs that follow this one in a new film.
+    AskSecond(PathBuf),
+    /// Close the project and show the invitation; asks first if work would be lost.
+    New,
     /// Open the gallery project with this name.
     OpenGallery(String),
     /// Open the gallery project with this name and play it.

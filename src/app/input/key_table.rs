@@ -220,13 +220,15 @@ fn view() -> Vec<KeyTableRow> {
 
 fn files() -> Vec<KeyTableRow> {
     use Intent::{
-        AskOpen, CopyImage, CopySvg, ExportFilm, ExportMethodSheet, Save, SaveAs, Screenshot,
+        AskOpen, Close, CopyImage, CopySvg, ExportFilm, ExportMethodSheet, New, Save, SaveAs,
+        Screenshot,
     };
     let letter = |c: char, intent: Intent| key(Letter(c), intent);
     let picture = |with_panels: bool| letter('s', Screenshot { with_panels });
     group(
         "Files and export",
         [
+            ("New project", vec![letter('n', New).control()]),
             ("Open", vec![letter('o', AskOpen).control()]),
             ("Save", vec![letter('s', Save).control()]),
             ("Save as", vec![letter('s', SaveAs).control().shift()]),
@@ -244,6 +246,7 @@ fn files() -> Vec<KeyTableRow> {
                 "Export a comparison sheet of all methods",
                 vec![letter('c', ExportMethodSheet)],
             ),
+            ("Quit", vec![letter('q', Close).control()]),
         ],
     )
 }

@@ -36,6 +36,8 @@ const HATCH_COLOUR: Rgb = Rgb([196, 84, 40]);
 pub struct MapContours {
     landscape: Option<MapLandscape>,
     sampling: Option<BackgroundJob<MapLandscape, Cancelled>>,
+    /// Whether sampling failed; it would fail again, so it is not repeated.
+    is_failed: bool,
     /// Measure, colour, and number of samples per side of the map, all for the image that was
     /// started last.
     drawn: Option<(ShownMeasure, Rgb, usize)>,
@@ -77,12 +79,14 @@ impl MapContours {
         shown: ShownMeasure,
         ink: Rgb,
     ) -> bool {
-        if let Some(Ok(landscape)) = BackgroundJob::take_result(&mut self.sampling) {
-            self.landscape = Some(landscape);
+        match BackgroundJob::take_result(&mut self.sampling) {
+            None => {}
+            Some(Ok(landscape)) => self.landscape = Some(landscape),
+            Some(Err(_)) => self.is_failed = true,
         }
         let sampled = self.landscape.as_ref().map_or(0, MapLandscape::side);
         let next = SAMPLES_PER_SIDE.into_iter().find(|side| *side > sampled);
-        if let Some(side) = next.filter(|_| self.sampling.is_none()) {
+        if let Some(side) = next.filter(|_| self.sampling.is_none() && !self.is_failed) {
             let (space, map) = (space.clone(), map.clone());
             self.sampling = Some(BackgroundJob::start("measuring the map", move |progress| {
                 MapLandscape::measure(&space, &map, side, MAP_HALF_SIDE, progress)

@@ -30,7 +30,8 @@ pub fn apply(
 ) {
     for intent in intents.read() {
         match intent {
-            Intent::ToggleMap => view.is_shown = !view.is_shown,
+            Intent::ToggleMap if view.is_shown => view.hide(),
+            Intent::ToggleMap => view.is_shown = true,
             Intent::MoveMarker(to) if to.is_finite() => view.move_marker(*to),
             Intent::ShowMapMeasure(shown) => view.measure = *shown,
             Intent::SetPathDrawing(on) => view.is_drawing_path = *on,

@@ -84,16 +84,35 @@ impl MapView {
         self.problem.as_ref()
     }
 
-    /// Whether the map is being built or drawn.
+    /// Whether the map is being built or drawn. While the map is hidden its images are not
+    /// collected, so they do not count.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.job.is_some() || self.pictures.as_ref().is_some_and(MapPictures::is_busy)
+        let is_drawing = self.pictures.as_ref().is_some_and(MapPictures::is_busy);
+        self.job.is_some() || (self.is_shown && is_drawing)
     }
 
     /// Whether the marker's movement is being recorded.
     #[must_use]
     pub fn is_recording(&self) -> bool {
         self.recorded.is_some()
+    }
+
+    /// Handles Esc: ends drawing a path, or stops recording one without keeping it, or hides the
+    /// map; returns `false` if none of these applies.
+    pub fn handle_escape(&mut self) -> bool {
+        if !self.is_shown {
+            return false;
+        }
+        if !std::mem::take(&mut self.is_drawing_path) && self.recorded.take().is_none() {
+            self.hide();
+        }
+        true
+    }
+
+    /// Hides the map, and ends drawing and recording.
+    pub fn hide(&mut self) {
+        (self.is_shown, self.is_drawing_path, self.recorded) = (false, false, None);
     }
 
     /// Starts recording the marker's movement, or stops and returns the recorded positions.
@@ -229,10 +248,12 @@ impl MapView {
         }
     }
 
-    /// Switches to the project's current settings; returns `true`, because at least the path over
-    /// the map is new.
+    /// Switches to the project's current settings; returns whether anything on the map is new.
     fn adopt_project(&mut self, loaded: LoadedProject) -> bool {
         let before = self.loaded.replace(loaded.clone());
+        let has_same_settings = before
+            .as_ref()
+            .is_some_and(|before| before.project == loaded.project);
         let is_same = before.is_some_and(|before| {
             let same_space = have_same_space(&before.project, &loaded.project);
             let designs = before.designs.iter().zip(&loaded.designs);
@@ -246,9 +267,10 @@ impl MapView {
                     .is_ok_and(|map| map.sites() != pictures.map().sites());
                 if is_elsewhere {
                     self.adopt_space(pictures.space().clone());
+                    return true;
                 }
             }
-            return true;
+            return !has_same_settings;
         }
         self.problem = None;
         // A draft is built first, so that a map appears at once.

@@ -5,12 +5,12 @@ use crate::project::title::title_of;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use bevy::prelude::{DetectChanges, Res, ResMut, Resource, warn};
+use bevy::prelude::{DetectChanges, Local, Res, ResMut, Resource, warn};
 use serde::{Deserialize, Serialize};
 
 use crate::app::session::state::Session;
+use crate::design::DesignSource;
 use crate::io::atomic_file::AtomicFile;
-use crate::io::sanitize::SanitizedLine;
 
 /// Maximum number of entries (heuristic: as many as fit above the gallery).
 const MAX_ENTRIES: usize = 5;
@@ -18,7 +18,8 @@ const MAX_ENTRIES: usize = 5;
 /// Files that were opened together.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecentEntry {
-    /// Paths of one project file, or of designs opened together.
+    /// Path of one project file, or sources of designs opened together; a source may also be an
+    /// element of a file, or text.
     pub files: Vec<PathBuf>,
 }
 
@@ -26,12 +27,28 @@ impl RecentEntry {
     /// Short title of the entry.
     #[must_use]
     pub fn title(&self) -> String {
-        let stem = |path: &PathBuf| {
-            let stem = path.file_stem().unwrap_or(path.as_os_str());
-            SanitizedLine(&stem.to_string_lossy()).to_string()
+        let name = |path: &PathBuf| DesignSource::from_path(path).name();
+        let names: Vec<String> = self.files.iter().map(name).collect();
+        title_of(&names)
+    }
+
+    /// Whether both list the same files, in any order: a film and its reverse are listed once.
+    fn is_same(&self, other: &Self) -> bool {
+        let sorted = |entry: &Self| {
+            let mut files = entry.files.clone();
+            files.sort();
+            files
         };
-        let stems: Vec<String> = self.files.iter().map(stem).collect();
-        title_of(&stems)
+        sorted(self) == sorted(other)
+    }
+
+    /// Whether all files still exist; text in the bundled font needs none.
+    fn exists(&self) -> bool {
+        let exists = |path: &PathBuf| {
+            let source = DesignSource::from_path(path);
+            source.file().is_none_or(Path::exists)
+        };
+        self.files.iter().all(exists)
     }
 }
 
@@ -67,8 +84,13 @@ impl RecentFiles {
         file.commit()
     }
 
-    fn add(&mut self, opened: RecentEntry) {
-        self.opened.retain(|other| *other != opened);
+    /// Adds an entry as the newest. Another entry with the same files is removed, and so is
+    /// `replaced`, if given.
+    fn add(&mut self, opened: RecentEntry, replaced: Option<&RecentEntry>) {
+        let is_gone = |other: &RecentEntry| {
+            other.is_same(&opened) || replaced.is_some_and(|replaced| other.is_same(replaced))
+        };
+        self.opened.retain(|other| !is_gone(other));
         self.opened.insert(0, opened);
         self.opened.truncate(MAX_ENTRIES);
     }
@@ -80,6 +102,8 @@ pub struct StoredRecentFiles {
     recent: RecentFiles,
     /// File of the list; `None` if nothing is written, as in tests.
     path: Option<PathBuf>,
+    /// Entry of the open project, if it has one; a later entry of the same project replaces it.
+    open: Option<RecentEntry>,
 }
 
 impl StoredRecentFiles {
@@ -89,9 +113,12 @@ impl StoredRecentFiles {
         let mut recent = path.as_deref().map(RecentFiles::read).unwrap_or_default();
         // Entries with missing files are dropped; this is checked only at the start, because it
         // reads the disk.
-        let exists = |opened: &RecentEntry| opened.files.iter().all(|file| file.exists());
-        recent.opened.retain(exists);
-        Self { recent, path }
+        recent.opened.retain(RecentEntry::exists);
+        Self {
+            recent,
+            path,
+            open: None,
+        }
     }
 
     /// Entries, the newest first.
@@ -113,37 +140,48 @@ impl StoredRecentFiles {
         folders
     }
 
+    /// Adds the entry of the open project; it replaces an earlier entry of the same project.
     fn add(&mut self, opened: RecentEntry) -> io::Result<()> {
-        self.recent.add(opened.clone());
+        let replaced = self.open.replace(opened.clone());
+        self.recent.add(opened.clone(), replaced.as_ref());
         let Some(path) = &self.path else {
             return Ok(());
         };
         // Another window may have added entries meanwhile.
         let mut stored = RecentFiles::read(path);
-        stored.add(opened);
+        stored.add(opened, replaced.as_ref());
         stored.write(path)
     }
 }
 
-/// Adds the open project to the list.
-pub fn follow(session: Res<Session>, mut recent: ResMut<StoredRecentFiles>) {
+/// Adds the open project to the list. Each project has one entry: designs that are replaced and
+/// designs that are saved as a project change it.
+pub fn follow(
+    session: Res<Session>,
+    mut recent: ResMut<StoredRecentFiles>,
+    mut opened: Local<Option<u64>>,
+) {
     if !session.is_changed() || session.transition().is_none() {
         return;
+    }
+    if *opened != session.document_number() {
+        // Another project has been opened: the entry of the previous one stays.
+        *opened = session.document_number();
+        recent.open = None;
     }
     let files = match (session.path(), session.gallery_name()) {
         (Some(path), _) => vec![path.to_owned()],
         // Gallery projects are not listed, because the gallery has a card for each of them.
         (None, Some(_)) => return,
-        (None, None) => session.files(),
+        (None, None) => session.design_paths(),
     };
-    let is_known = recent
-        .entries()
-        .first()
-        .is_some_and(|last| last.files == files);
-    if files.is_empty() || is_known {
+    // A single design, paired with itself, is not a film yet.
+    let is_single = session.path().is_none() && files.windows(2).all(|pair| pair[0] == pair[1]);
+    let entry = RecentEntry { files };
+    if is_single || recent.open.as_ref() == Some(&entry) {
         return;
     }
-    if let Err(error) = recent.add(RecentEntry { files }) {
+    if let Err(error) = recent.add(entry) {
         // The error is only logged, because the user loses nothing.
         warn!("cannot write the list of recent files: {error}");
     }
@@ -163,10 +201,27 @@ mod tests {
     fn the_newest_comes_first_without_duplicates() {
         let mut recent = RecentFiles::default();
         for name in ["a", "b", "a", "c", "d", "e", "f"] {
-            recent.add(opened(name));
+            recent.add(opened(name), None);
         }
         let titles: Vec<String> = recent.opened.iter().map(RecentEntry::title).collect();
         assert_eq!(titles, ["f", "e", "d", "c", "a"]);
+    }
+
+    #[test]
+    fn a_pair_and_the_project_made_from_it_are_listed_once() {
+        let pair = |a: &str, b: &str| RecentEntry {
+            files: [a, b].map(PathBuf::from).into(),
+        };
+        let mut stored = StoredRecentFiles::default();
+        stored.add(opened("other")).expect("nothing is written");
+        stored.open = None;
+        stored.add(pair("a.svg", "b.svg")).expect("not written");
+        stored.add(pair("b.svg", "a.svg")).expect("not written");
+        assert_eq!(stored.entries(), [pair("b.svg", "a.svg"), opened("other")]);
+        // The design is replaced, and the project is then saved.
+        stored.add(pair("b.svg", "c.svg")).expect("not written");
+        stored.add(opened("saved")).expect("not written");
+        assert_eq!(stored.entries(), [opened("saved"), opened("other")]);
     }
 
     #[test]
@@ -175,9 +230,10 @@ mod tests {
         let path = folder.path().join("state").join("recent.toml");
         let mut stored = StoredRecentFiles::of_file(Some(path.clone()));
         let existing = RecentEntry {
-            files: vec![folder.path().to_owned()],
+            files: vec![folder.path().to_owned(), "glyph:D".into()],
         };
         stored.add(opened("gone")).expect("a file");
+        stored.open = None;
         stored.add(existing.clone()).expect("a file");
         assert_eq!(stored.entries().len(), 2);
         assert_eq!(

@@ -80,14 +80,13 @@ impl Playback {
 
     /// Whether another film of the same designs may now replace this one, as when the best film
     /// replaces a draft. True while t is at rest, so that no motion jumps, and while t is near a
-    /// whole number or negative. A film that neither starts nor ends at such a t may be replaced at
-    /// any time.
+    /// whole number that is not negative. A film that neither starts nor ends at such a t may be
+    /// replaced at any time.
     #[must_use]
     pub fn can_swap_film(&self, timing: &Timing) -> bool {
-        // At a whole t all films show the same design, so a draft and the film that replaces it
-        // look the same there. A negative t is treated like t = 0, although the two films may
-        // differ there.
-        let is_end = |t: f64| t < SWAP_DISTANCE_T || (t - t.round()).abs() < SWAP_DISTANCE_T;
+        // At a whole t within the film all films show the same design, so a draft and the film that
+        // replaces it look the same there. Before the first design they extrapolate differently.
+        let is_end = |t: f64| t > -SWAP_DISTANCE_T && (t - t.round()).abs() < SWAP_DISTANCE_T;
         let meets_an_end = [timing.from, timing.to].into_iter().any(is_end);
         !self.is_playing() || is_end(self.t) || !meets_an_end
     }

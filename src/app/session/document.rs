@@ -221,6 +221,28 @@ impl OpenDocument {
     /// Files that the designs are read from.
     #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
+        let sources = self.sources().into_iter();
+        sources
+            .filter_map(|source| Some(source.file()?.to_owned()))
+            .collect()
+    }
+
+    /// Folder of the project file or, if the project has none, of its first design that is not
+    /// text.
+    #[must_use]
+    pub fn folder(&self) -> Option<PathBuf> {
+        let sources = self.sources().into_iter();
+        let mut drawings = sources.filter_map(|source| match source {
+            DesignSource::File { path, .. } => Some(path),
+            DesignSource::Text { .. } => None,
+        });
+        let file = self.path().map(Path::to_owned).or_else(|| drawings.next());
+        Some(file?.parent()?.to_owned())
+    }
+
+    /// Sources of the designs that are not bundled.
+    #[must_use]
+    pub fn sources(&self) -> Vec<DesignSource> {
         let folder = self.loaded.folder.as_deref();
         let entries = self.loaded.project.designs.iter();
         let sources = entries.filter_map(|entry| match folder {
@@ -231,9 +253,7 @@ impl OpenDocument {
                 .is_absolute()
                 .then(|| DesignSource::from_path(&entry.path)),
         });
-        sources
-            .filter_map(|source| Some(source.file()?.to_owned()))
-            .collect()
+        sources.collect()
     }
 
     /// Name of the project file without extension; `None` if the project has no file.
@@ -255,7 +275,9 @@ impl OpenDocument {
     /// the path on the map, if the path has one.
     #[must_use]
     pub fn file_stem(&self) -> String {
-        let name = || self.gallery_name().map(str::to_owned);
+        // A gallery project whose designs were replaced has lost its title, and so its name.
+        let has_title = !self.loaded.project.title.is_empty();
+        let name = || self.gallery_name().filter(|_| has_title).map(str::to_owned);
         let stem = self.stem().or_else(name).unwrap_or_else(|| self.title());
         let path = &self.loaded.project.map.path;
         match path.is_too_short() || path.name.is_empty() {

@@ -47,6 +47,8 @@ pub struct Session {
     open: Option<OpenDocument>,
     work: Option<TransitionWork>,
     is_stale: bool,
+    /// Number of projects opened so far.
+    opened_count: u64,
 }
 
 /// Timing reported while no project is open.
@@ -217,10 +219,32 @@ impl Session {
         self.open.as_ref()?.path()
     }
 
+    /// Folder of the project file or, if the project has none, of its first design that is
+    /// not text.
+    #[must_use]
+    pub fn folder(&self) -> Option<PathBuf> {
+        let folder = self.open.as_ref()?.folder();
+        folder.filter(|folder| folder.is_dir())
+    }
+
     /// Gallery name of the open project; `None` if it is not a bundled one.
     #[must_use]
     pub fn gallery_name(&self) -> Option<&str> {
         self.open.as_ref()?.gallery_name()
+    }
+
+    /// Number that tells the open project from those opened before; `None` if no project is open.
+    #[must_use]
+    pub fn document_number(&self) -> Option<u64> {
+        self.open.as_ref().map(|_| self.opened_count)
+    }
+
+    /// Sources of all designs that are not bundled, in order.
+    #[must_use]
+    pub fn design_paths(&self) -> Vec<PathBuf> {
+        let sources = self.open.as_ref().map(OpenDocument::sources);
+        let sources = sources.into_iter().flatten();
+        sources.map(|source| source.to_path()).collect()
     }
 
     /// Files that the designs were read from.

@@ -153,8 +153,13 @@ fn draw(
     }
     let stage = root.available_rect_before_wrap();
     let visible = stage_content(&mut root, &state, stage, &mut intents);
-    overlays(&ctx, &state, stage, &mut intents);
-    file_dialog::show(&ctx, &state, &mut files, &mut intents);
+    let question = overlays(&ctx, &state, stage, &mut intents);
+    let file_dialog = file_dialog::show(&ctx, &state, &mut files, &mut intents);
+    if state.preferences.panels {
+        // Progress and notices are hidden together with the panels, so that only the drawing is
+        // visible. They appear again with the panels.
+        messages(&ctx, &state, stage, question.or(file_dialog), &mut intents);
+    }
     outputs
         .area
         .set_if_neq(StageArea::from_points(visible.left_top(), visible.size()));
@@ -244,27 +249,39 @@ fn panels(
     invitation::show(root, state, textures, intents);
 }
 
-fn overlays(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &mut Intents) {
+/// Draws the overlay of the match editor, the list of keys and the question that waits for an
+/// answer. Returns the rectangle of the topmost dialog, if one is open.
+fn overlays(
+    ctx: &egui::Context,
+    state: &UiState,
+    stage: egui::Rect,
+    intents: &mut Intents,
+) -> Option<egui::Rect> {
     if state.editor.is_open {
         match_editor::overlay(ctx, state, stage, intents);
     }
-    // Progress and notices are hidden together with the panels, so that only the drawing is
-    // visible. They appear again with the panels.
-    if state.preferences.panels {
-        messages(ctx, state, stage, intents);
-    }
     // Help and questions are shown even if the panels are hidden, because an action of the user has
     // just opened them.
-    if state.preferences.help {
-        help::show(ctx, state, intents);
-    }
-    if !state.presentation.is_active() {
-        questions::show(ctx, state, intents);
-    }
+    let help = state
+        .preferences
+        .help
+        .then(|| help::show(ctx, state, intents));
+    let question = match state.presentation.is_active() {
+        true => None,
+        false => questions::show(ctx, state, intents),
+    };
+    question.or(help)
 }
 
-/// Draws the progress of background jobs and the notices.
-fn messages(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &mut Intents) {
+/// Draws the progress of background jobs and the notices. `dialog` is the rectangle of the open
+/// dialog, which notices must not cover.
+fn messages(
+    ctx: &egui::Context,
+    state: &UiState,
+    stage: egui::Rect,
+    dialog: Option<egui::Rect>,
+    intents: &mut Intents,
+) {
     // Progress cards must not cover the toolbar of the match editor. Notices must cover neither the
     // toolbar nor the instructions of the match editor.
     let mut free = stage;
@@ -275,7 +292,11 @@ fn messages(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &m
     if state.editor.is_open {
         free.max.y -= match_editor::INSTRUCTIONS_HEIGHT;
     }
-    notices::show(ctx, state, free, intents);
+    let place = dialog.map_or_else(
+        || notices::NoticePlace::on_stage(free),
+        |dialog| notices::NoticePlace::next_to_dialog(dialog, ctx.content_rect()),
+    );
+    notices::show(ctx, state, &place, intents);
 }
 
 impl StageArea {

@@ -71,6 +71,30 @@ pub enum FindingKind {
     },
 }
 
+impl FindingKind {
+    /// Extent of the defect, comparable between findings of the same kind: a number of faces,
+    /// crossings, extra pieces or extra holes, a fraction of the frame, or a distance.
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        match self {
+            Self::Folds { faces } => faces.len() as f64,
+            Self::Crossings { crossings } => crossings.len() as f64,
+            Self::Pieces { count, at_ends } | Self::Holes { count, at_ends } => {
+                count.saturating_sub(*at_ends) as f64
+            }
+            Self::Gone => 1.0,
+            Self::PlaneFolds { share } => *share,
+            Self::Missed { by, .. } => *by,
+        }
+    }
+
+    /// Whether both are the same kind of defect, whatever their extents.
+    #[must_use]
+    pub fn is_same_kind(&self, other: &Self) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+}
+
 /// Measured cause of a defect. Angles are radians.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]

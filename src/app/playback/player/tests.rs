@@ -135,6 +135,11 @@ fn a_film_may_change_only_at_rest_or_near_a_design() {
     assert!(!playback.can_swap_film(&full_film), "in between");
     playback.advance(0.98, &full_film, &[]);
     assert!(playback.can_swap_film(&full_film), "near its end");
+    playback.seek(-0.5, &full_film, &[]);
+    assert!(
+        !playback.can_swap_film(&full_film),
+        "before the first design the films differ"
+    );
     let middle_part = Timing {
         from: 0.2,
         to: 0.8,

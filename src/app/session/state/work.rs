@@ -71,6 +71,11 @@ impl Session {
         }
     }
 
+    /// Closes the open project, and cancels opening another one.
+    pub fn close(&mut self) {
+        (self.open, self.work, self.is_stale) = (None, None, false);
+    }
+
     /// Opens another project in the background.
     pub fn open(&mut self, request: LoadRequest) {
         self.is_stale = false;
@@ -125,6 +130,7 @@ impl Session {
             // one.
             (Some(origin), open) => {
                 self.is_stale = false;
+                self.opened_count += 1;
                 *open = Some(opened(loaded, origin));
                 Some(WorkOutcome::Opened)
             }
@@ -141,6 +147,7 @@ impl Session {
         Some(match (result, origin, &mut self.open) {
             (Ok(loaded), Some(origin), open) => {
                 self.is_stale = false;
+                self.opened_count += 1;
                 *open = Some(opened(loaded, origin));
                 WorkOutcome::Opened
             }
@@ -151,7 +158,7 @@ impl Session {
                     WorkOutcome::RebuildFailed
                 }
             }
-            // Unreachable in practice: an open project is never closed, only replaced by another.
+            // Unreachable in practice: closing the project ends its work.
             (Ok(_), None, None) => return None,
             (Err(error), origin, open) => {
                 if let (None, Some(open)) = (origin, open) {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use bevy::prelude::Resource;
-use bevy_egui::egui::{Align2, Context, Key, Ui, Vec2, vec2};
+use bevy_egui::egui::{Align2, Context, Key, Rect, Ui, Vec2, vec2};
 use egui_file_dialog::{DialogState, DirectoryEntry, FileDialog, OpeningMode};
 
 use crate::app::files::file_dialog::DialogPurpose;
@@ -26,11 +26,17 @@ struct OpenFileDialog {
     typed: TypedPath,
 }
 
-/// Draws the file dialog while the app requests files, and sends the user's answer.
-pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents: &mut Intents) {
+/// Draws the file dialog while the app requests files, and sends the user's answer. Returns the
+/// rectangle of the dialog, if it is open.
+pub fn show(
+    ctx: &Context,
+    state: &UiState,
+    files: &mut FileDialogState,
+    intents: &mut Intents,
+) -> Option<Rect> {
     let Some(purpose) = state.dialog.purpose() else {
         files.0 = None;
-        return;
+        return None;
     };
     files
         .0
@@ -44,7 +50,7 @@ pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents
     // field instead of closing.
     if ctx.input(|input| input.key_pressed(Key::Escape)) {
         intents.push(Intent::AnswerDialog(Vec::new()));
-        return;
+        return None;
     }
     // The dialog uses the background colour of selected text as the text colour of selected names,
     // so this colour must be bright.
@@ -62,6 +68,8 @@ pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents
             intents.push(Intent::AnswerDialog(Vec::new()))
         }
     }
+    let window = open_dialog.dialog.get_window_id();
+    ctx.memory(|memory| memory.area_rect(window))
 }
 
 /// Draws the dialog for opening files, with the side panel next to the list of files.
@@ -130,7 +138,9 @@ fn dialog(purpose: &DialogPurpose, state: &UiState) -> FileDialog {
         }
     }
     match purpose {
-        DialogPurpose::Open | DialogPurpose::Insert(_) => dialog.pick_multiple(),
+        DialogPurpose::Open | DialogPurpose::Second(_) | DialogPurpose::Insert(_) => {
+            dialog.pick_multiple();
+        }
         DialogPurpose::Replace(_) => dialog.pick_file(),
         DialogPurpose::Save(name) => {
             dialog = dialog.default_file_name(name);

@@ -1,6 +1,6 @@
 //! Dialog that lists the keyboard shortcuts of the key map in use.
 
-use bevy_egui::egui::{self, Align2, Context, Id, Modal, ScrollArea, Ui, vec2};
+use bevy_egui::egui::{self, Align2, Context, Id, Modal, Rect, ScrollArea, Ui, vec2};
 
 use crate::app::input::intent::Intent;
 use crate::app::input::key_map::KeyTableRow;
@@ -20,8 +20,8 @@ const ROW_HEIGHT: f32 = 20.0;
 /// Height of the dialog without the list, in points: heading, hint and margins.
 const HEIGHT_WITHOUT_LIST: f32 = 96.0;
 
-/// Draws the dialog with the keyboard shortcuts, above everything else.
-pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
+/// Draws the dialog with the keyboard shortcuts, above everything else; returns its rectangle.
+pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) -> Rect {
     let response = Modal::new(Id::new("help")).show(ctx, |ui| {
         ui.set_width(2.0 * COLUMN_WIDTH + 2.0 * GRID);
         ui.horizontal(|ui| {
@@ -47,6 +47,7 @@ pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
     if response.backdrop_response.clicked() {
         intents.push(Intent::ToggleHelp);
     }
+    response.response.rect
 }
 
 /// Draws all shortcuts in two columns; a single one would be taller than most windows.

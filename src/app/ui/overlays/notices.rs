@@ -1,8 +1,10 @@
 //! Notices at the lower edge of the stage, as cards with buttons to close them and to act on them.
+//! While a dialog is open they lie between the dialog and an edge of the window, so that they cover
+//! no part of it.
 
 use std::path::Path;
 
-use bevy_egui::egui::{self, Align2, Context, Label, Order, Rect, Ui, vec2};
+use bevy_egui::egui::{self, Align2, Context, Label, Order, Rect, ScrollArea, Ui, vec2};
 
 use crate::app::input::intent::Intent;
 use crate::app::notices::{Notice, NoticeKind, NoticeTopic};
@@ -16,21 +18,72 @@ use crate::app::ui::ui_state::{Intents, UiState};
 /// closed (resource limit: room on the stage).
 const MAX_SHOWN: usize = 4;
 
-/// Draws the newest notices at the lower edge of `stage`.
-pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
-    let list = state.notices.list();
-    if list.is_empty() {
-        return;
-    }
-    let width = (stage.width() - 4.0 * GRID).clamp(160.0, 480.0);
-    let at = stage.center_bottom() - vec2(0.0, 2.0 * GRID);
-    // Notices may be errors, so they lie above the cards that show the progress of jobs.
-    let area = fixed_layer("notices", Align2::CENTER_BOTTOM, at).order(Order::Foreground);
-    area.show(ctx, |ui| {
-        for notice in &list[list.len().saturating_sub(MAX_SHOWN)..] {
-            let exceeds_limits = exceeds_limits(state, notice);
-            message(ui, notice, exceeds_limits, width, intents);
+/// Gap between the notices and the edges of the space around them, in points.
+const MARGIN: f32 = 2.0 * GRID;
+
+/// Height of a notice with one line of text, in points.
+const MIN_HEIGHT: f32 = 40.0;
+
+/// Space for the notices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoticePlace {
+    /// The rectangle that the notices may cover.
+    room: Rect,
+    /// Layer of the notices.
+    order: Order,
+}
+
+impl NoticePlace {
+    /// The lower edge of the stage. Notices may be errors, so they lie above the cards that show
+    /// the progress of jobs.
+    pub const fn on_stage(stage: Rect) -> Self {
+        Self {
+            room: stage,
+            order: Order::Foreground,
         }
+    }
+
+    /// The space below the dialog or, if it is larger, above it. The notices lie above the shade
+    /// around the dialog, so that they can be read and closed.
+    pub fn next_to_dialog(dialog: Rect, window: Rect) -> Self {
+        let [mut above, mut below] = [window; 2];
+        above.max.y = dialog.top().max(window.top());
+        below.min.y = dialog.bottom().min(window.bottom());
+        let room = match below.height() >= above.height() {
+            true => below,
+            false => above,
+        };
+        Self {
+            room,
+            order: Order::Tooltip,
+        }
+    }
+
+    /// Maximum height of the list of notices, in points; `None` if there is no room for one.
+    fn max_height(&self) -> Option<f32> {
+        let height = self.room.height() - 2.0 * MARGIN;
+        (height >= MIN_HEIGHT).then_some(height)
+    }
+}
+
+/// Draws the newest notices at the lower edge of `place`. Notices for which there is no room are
+/// reached by scrolling; if there is no room at all, they wait until the dialog is closed.
+pub fn show(ctx: &Context, state: &UiState, place: &NoticePlace, intents: &mut Intents) {
+    let list = state.notices.list();
+    let Some(max_height) = place.max_height().filter(|_| !list.is_empty()) else {
+        return;
+    };
+    let width = (place.room.width() - 4.0 * GRID).clamp(160.0, 480.0);
+    let at = place.room.center_bottom() - vec2(0.0, MARGIN);
+    let area = fixed_layer("notices", Align2::CENTER_BOTTOM, at).order(place.order);
+    area.show(ctx, |ui| {
+        let scroll = ScrollArea::vertical().max_height(max_height);
+        scroll.stick_to_bottom(true).show(ui, |ui| {
+            for notice in &list[list.len().saturating_sub(MAX_SHOWN)..] {
+                let exceeds_limits = exceeds_limits(state, notice);
+                message(ui, notice, exceeds_limits, width, intents);
+            }
+        });
     });
 }
 
@@ -103,4 +156,31 @@ fn file_buttons(ui: &mut Ui, file: &Path) {
             ui.copy_text(file.display().to_string());
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy_egui::egui::pos2;
+
+    use super::*;
+
+    #[test]
+    fn notices_have_no_room_where_the_dialog_is() {
+        let window = Rect::from_min_size(pos2(0.0, 0.0), vec2(1280.0, 720.0));
+        let dialogs = [
+            Rect::from_center_size(window.center(), vec2(400.0, 140.0)),
+            Rect::from_center_size(window.center(), vec2(760.0, 440.0)),
+            // A dialog near the lower edge, and one that fills the window.
+            Rect::from_min_size(pos2(300.0, 400.0), vec2(400.0, 310.0)),
+            window.expand(20.0),
+        ];
+        for dialog in dialogs {
+            let place = NoticePlace::next_to_dialog(dialog, window);
+            let is_apart = place.room.bottom() <= dialog.top() || place.room.top() >= dialog.bottom();
+            assert!(place.max_height().is_none() || is_apart, "{dialog:?}");
+        }
+        let fills = NoticePlace::next_to_dialog(window, window);
+        assert_eq!(fills.max_height(), None);
+        assert!(NoticePlace::next_to_dialog(dialogs[1], window).max_height() > Some(MIN_HEIGHT));
+    }
 }

@@ -4,7 +4,8 @@
 
 use bevy_egui::egui::{self, Label, Panel, Rect, RichText, Sense, Ui, vec2};
 
-use crate::app::analysis::film_measures::{FilmMeasures, is_one_click};
+use crate::app::analysis::film_measures::FilmMeasures;
+use crate::app::analysis::suggestions::is_one_click;
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::text::capitalised;
@@ -78,7 +79,7 @@ fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Int
     for (index, finding) in verdict.findings.iter().enumerate() {
         row(ui, false, |ui| {
             headline(ui, state, finding, intents);
-            fix_button(ui, index, finding, intents);
+            fix_button(ui, state, index, finding, intents);
         });
     }
     if !verdict.is_clear() {
@@ -161,10 +162,13 @@ fn headline(ui: &mut Ui, state: &UiState, finding: &Finding, intents: &mut Inten
     } else {
         "Click to go there."
     };
-    let tip = format!(
-        "Cause: {}.\nFix: {}.\n{hint}",
-        finding.cause, finding.remedy
-    );
+    // A remedy that can be tried is named only if it helps.
+    let is_named = !is_one_click(&finding.remedy) || state.suggestions.offers(&finding.remedy);
+    let fix = match is_named {
+        true => format!("Fix: {}.\n", finding.remedy),
+        false => String::new(),
+    };
+    let tip = format!("Cause: {}.\n{fix}{hint}", finding.cause);
     response.on_hover_text(tip);
 }
 
@@ -186,6 +190,7 @@ fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
             suggestions.is_done(),
         ) {
             ([], true, _) => "Looking for fixes: flipping, rotating, other methods …",
+            ([], _, true) if suggestions.has_remedies() => "",
             ([], _, true) => "No fix found: tried flipping, rotating and other methods.",
             ([], ..) => "",
             // The text is short, because the buttons follow it in the same line.
@@ -209,9 +214,15 @@ fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     });
 }
 
-/// Draws a button that applies the remedy of a finding, if the remedy needs no further input.
-fn fix_button(ui: &mut Ui, index: usize, finding: &Finding, intents: &mut Intents) {
-    if !is_one_click(&finding.remedy) {
+/// Draws a button that applies the remedy of a finding, if the remedy was tried and helps.
+fn fix_button(
+    ui: &mut Ui,
+    state: &UiState,
+    index: usize,
+    finding: &Finding,
+    intents: &mut Intents,
+) {
+    if !state.suggestions.offers(&finding.remedy) {
         return;
     }
     let tip = format!(

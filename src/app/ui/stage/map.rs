@@ -116,7 +116,8 @@ fn handle_drag(
     let response = root.interact(square, id, Sense::click_and_drag());
     let mut drag: MapDrag = root.data(|data| data.get_temp(id)).unwrap_or_default();
     let Some(at) = response.interact_pointer_pos() else {
-        if !drag.line.is_empty() {
+        // Drawing may have ended during the drag, by Esc.
+        if !drag.line.is_empty() && state.map.is_drawing_path {
             intents.push(Intent::ExtendPath(std::mem::take(&mut drag.line)));
         }
         root.data_mut(|data| data.insert_temp(id, MapDrag::default()));
