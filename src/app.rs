@@ -16,7 +16,7 @@
 //! | `view`, `stage_area`, `stage_sync` | pan and zoom, filmstrip; what the stage shows |
 //! | `escape`, `open_questions`, `tool_views` | what Esc closes or cancels, full screen |
 //! | `redraw_pace` | how often the window redraws |
-//! | `screen_fit` | size of the window on small screens |
+//! | `screen_fit`, `window_system` | size of the window on small screens; choice of X11 or Wayland |
 //! | `map` | the map on which the designs are placed, its thumbnails and contours |
 //! | `analysis` | measures of the film, search for the best method, suggested changes |
 //! | `compare` | a second method shown next to the stage, at the same t |
@@ -53,6 +53,7 @@ mod ui;
 mod unsaved_question;
 mod view;
 mod window;
+mod window_system;
 
 pub use no_window::NoWindowError;
 pub use window::{AppOptions, run};

@@ -50,6 +50,6 @@ pub use polygons::{PolygonsFault, PolygonsImportError};
 pub use silhouette::{SilhouetteCandidate, SilhouetteError, silhouette_candidates};
 pub use sniff::{UnknownFormat, sniff};
 pub use source::DesignSource;
-pub use svg::SvgError;
+pub use svg::{InstalledFont, SvgError, installed_fonts};
 pub use truss::{Truss, TrussInputError, TrussLoad, TrussMaterial, TrussParts, TrussSupport};
 pub use unit::LengthUnit;

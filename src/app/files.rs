@@ -8,4 +8,6 @@ pub mod file_watcher;
 pub mod gallery_thumbnails;
 pub mod invitation;
 pub mod path_completion;
+pub mod picture_readings;
 pub mod project_actions;
+pub mod text_fonts;

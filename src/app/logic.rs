@@ -22,7 +22,9 @@ use crate::app::escape;
 use crate::app::files::invitation::Invitation;
 use crate::app::files::project_actions as opening;
 use crate::app::files::project_actions::{GalleryEntries, PlayWhenOpened};
-use crate::app::files::{drop, file_dialog, file_preview, file_watcher, invitation};
+use crate::app::files::{
+    drop, file_dialog, file_preview, file_watcher, invitation, picture_readings, text_fonts,
+};
 use crate::app::input::gesture;
 use crate::app::input::gesture::KeyboardFocus;
 use crate::app::input::intent::Intent;
@@ -124,6 +126,9 @@ fn init_resources(app: &mut App) {
         .init_resource::<file_watcher::FileWatcher>()
         .init_resource::<file_dialog::FileDialogRequest>()
         .init_resource::<file_preview::FilePreview>()
+        .init_resource::<text_fonts::TextFonts>()
+        .init_resource::<picture_readings::PictureReadings>()
+        .init_resource::<drop::DropSupport>()
         .init_resource::<film_exporter::FilmExporter>()
         .init_resource::<film_framing::FilmFraming>()
         .init_resource::<ScratchFolder>()
@@ -131,7 +136,7 @@ fn init_resources(app: &mut App) {
         .init_resource::<StageArea>()
         .init_resource::<AutoFit>()
         .init_resource::<frame_intervals::FrameIntervals>()
-        .insert_resource(CaptureFolder::choose(None));
+        .init_resource::<CaptureFolder>();
 }
 
 /// Systems that act on intents. Each runs after the systems whose results it needs; for example, a
@@ -158,6 +163,7 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
             file_dialog::apply_choice,
             file_dialog::open,
             file_preview::follow,
+            text_fonts::follow,
         )
             .chain(),
         (project_systems(), analysis_systems()).chain(),
@@ -193,6 +199,7 @@ fn project_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyst
         suggestions::apply,
         opening::save,
         opening::poll,
+        picture_readings::follow,
         tool_views::close_without_project,
         refresh::refresh,
     )

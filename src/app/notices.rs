@@ -25,6 +25,8 @@ pub enum NoticeTopic {
     Transition,
     /// Saving the project.
     Saving,
+    /// A file name that the file dialog does not accept.
+    FileName,
     /// Exporting a film or a comparison sheet.
     Film,
     /// Saving or copying an image.

@@ -1,36 +1,51 @@
 //! Output files: the folder for exports, file names that are still free, and the scratch folder for
 //! unfinished exports.
 
+use std::ffi::OsStr;
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use bevy::prelude::Resource;
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::{Res, Resource};
 
+use crate::app::persistence::recent_files::StoredRecentFiles;
+use crate::app::session::state::Session;
 use crate::io::atomic_file::AtomicFile;
 use crate::io::file_name::safe_file_name;
 
-/// Folder for exported images and films.
-#[derive(Resource, Clone, Debug, PartialEq, Eq)]
-pub struct CaptureFolder(pub PathBuf);
+/// Folder for exported images and films, as given on the command line.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+pub struct CaptureFolder(pub Option<PathBuf>);
 
-impl CaptureFolder {
-    /// Returns the requested folder, or else the folder `Morphospace` in the user's pictures
-    /// folder, home folder or current folder, whichever is known first.
+/// The folder for exported images and films.
+#[derive(SystemParam)]
+pub struct ExportFolder<'w> {
+    requested: Res<'w, CaptureFolder>,
+    recent: Res<'w, StoredRecentFiles>,
+    session: Res<'w, Session>,
+}
+
+impl ExportFolder<'_> {
+    /// The folder that the user chose last for an export, or else the one given on the command
+    /// line, or that of the project, or the folder `Morphospace` in the user's pictures folder,
+    /// home folder or current folder, whichever is known first.
     #[must_use]
-    pub fn choose(requested: Option<PathBuf>) -> Self {
+    pub fn path(&self) -> PathBuf {
         let pictures = || {
-            dirs::picture_dir()
-                .or_else(dirs::home_dir)
-                .unwrap_or_default()
+            let folder = dirs::picture_dir().or_else(dirs::home_dir);
+            folder.unwrap_or_default().join("Morphospace")
         };
-        Self(requested.unwrap_or_else(|| pictures().join("Morphospace")))
+        let last = self.recent.export_folder().map(Path::to_owned);
+        last.or_else(|| self.requested.0.clone())
+            .or_else(|| self.session.folder())
+            .unwrap_or_else(pictures)
     }
 }
 
 /// A file or folder could not be created.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {path}: {source}; set another folder with --captures")]
+#[error("cannot write {path}: {source}; choose another folder")]
 pub struct CreateFileError {
     path: String,
     source: io::Error,
@@ -67,12 +82,7 @@ fn first_free<T>(
     // The file is created without a check first: two processes that check could both find the same
     // name free.
     for number in 1u32.. {
-        let name = if number == 1 {
-            format!("{stem}{suffix}")
-        } else {
-            format!("{stem}-{number}{suffix}")
-        };
-        let path = folder.join(name);
+        let path = folder.join(numbered_name(&stem, number, suffix));
         match create(&path) {
             Ok(created) => return Ok((created, path)),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
@@ -126,24 +136,24 @@ pub fn check_writable(folder: &Path) -> Result<(), CreateFileError> {
     })
 }
 
-/// Moves a finished file or folder into `folder` under a free name; returns its path.
+/// Moves a finished file or folder to `path`, or to a similar path if that is in use; returns the
+/// path.
 ///
 /// # Errors
 /// The folder cannot be created or written to. In this case nothing is left there.
-pub fn move_to_free_name(
-    source_path: &Path,
-    folder: &Path,
-    stem: &str,
-) -> Result<PathBuf, CreateFileError> {
+pub fn move_to_free_path(source_path: &Path, path: &Path) -> Result<PathBuf, CreateFileError> {
+    let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let folder = path.parent().unwrap_or(Path::new(""));
     if source_path.is_dir() {
-        let (_, path) = first_free(folder, stem, "", |path| move_folder(source_path, path))?;
+        let name = text(path.file_name());
+        let (_, path) = first_free(folder, &name, "", |path| move_folder(source_path, path))?;
         return Ok(path);
     }
-    let extension = source_path
-        .extension()
-        .unwrap_or_default()
-        .to_string_lossy();
-    let (_, path) = first_free(folder, stem, &format!(".{extension}"), |path| {
+    let (stem, suffix) = match path.extension() {
+        Some(extension) => (path.file_stem(), format!(".{}", text(Some(extension)))),
+        None => (path.file_name(), String::new()),
+    };
+    let (_, path) = first_free(folder, &text(stem), &suffix, |path| {
         // A hard link never overwrites, and the file is complete from its first moment.
         match std::fs::hard_link(source_path, path) {
             Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
@@ -159,14 +169,45 @@ pub fn move_to_free_name(
 fn copy_new(source_path: &Path, path: &Path) -> io::Result<()> {
     // Reserves the name; the content then replaces the empty file in one step.
     drop(OpenOptions::new().write(true).create_new(true).open(path)?);
-    let copy = || {
-        let mut file = AtomicFile::create(path)?;
-        io::copy(&mut File::open(source_path)?, file.file_mut())?;
-        file.commit()
-    };
-    copy().inspect_err(|_| {
+    copy_over(source_path, path).inspect_err(|_| {
         std::fs::remove_file(path).ok();
     })
+}
+
+/// Copies a file to a path in one step; an existing file there is replaced.
+fn copy_over(source_path: &Path, path: &Path) -> io::Result<()> {
+    let mut file = AtomicFile::create(path)?;
+    io::copy(&mut File::open(source_path)?, file.file_mut())?;
+    file.commit()
+}
+
+/// Replaces the file `path`, which the user has confirmed, by a finished file.
+///
+/// # Errors
+/// The file cannot be written; it stays as it was.
+pub fn replace_file(source_path: &Path, path: &Path) -> Result<(), CreateFileError> {
+    copy_over(source_path, path).map_err(|source| CreateFileError {
+        path: path.display().to_string(),
+        source,
+    })
+}
+
+/// First of the names `stem`, `stem-2` and so on, each followed by `suffix`, that no file in
+/// `folder` has.
+#[must_use]
+pub fn free_name(folder: &Path, stem: &str, suffix: &str) -> String {
+    let stem = safe_file_name(stem);
+    let is_free = |name: &String| !folder.join(name).exists();
+    let mut names = (1u32..).map(|number| numbered_name(&stem, number, suffix));
+    names.find(is_free).unwrap_or(stem)
+}
+
+/// The name `stem`, with a number from the second on, followed by `suffix`.
+fn numbered_name(stem: &str, number: u32, suffix: &str) -> String {
+    match number {
+        1 => format!("{stem}{suffix}"),
+        _ => format!("{stem}-{number}{suffix}"),
+    }
 }
 
 /// Moves a folder to a new path; copies its files if it cannot be renamed, as between two disks.
@@ -233,19 +274,22 @@ mod tests {
         let folder = to.path().join("films");
         let name = |path: PathBuf| path.file_name().map(|name| name.to_owned());
         assert_eq!(
-            name(move_to_free_name(&film, &folder, "a")?),
+            name(move_to_free_path(&film, &folder.join("a.gif"))?),
             Some("a.gif".into())
         );
         assert_eq!(
-            name(move_to_free_name(&film, &folder, "a")?),
+            name(move_to_free_path(&film, &folder.join("a.gif"))?),
             Some("a-2.gif".into())
         );
         assert_eq!(
-            name(move_to_free_name(&frames, &folder, "a")?),
+            name(move_to_free_path(&frames, &folder.join("a"))?),
             Some("a".into())
         );
         assert_eq!(std::fs::read(folder.join("a-2.gif"))?, b"frames");
         assert_eq!(std::fs::read(folder.join("a").join("0.png"))?, b"frame");
+        assert_eq!(free_name(&folder, "a", ".gif"), "a-3.gif");
+        replace_file(&film, &folder.join("a").join("0.png"))?;
+        assert_eq!(std::fs::read(folder.join("a").join("0.png"))?, b"frames");
         // Copying, as is done between two disks.
         copy_new(&film, &folder.join("b.gif"))?;
         assert_eq!(std::fs::read(folder.join("b.gif"))?, b"frames");

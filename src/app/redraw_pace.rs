@@ -24,6 +24,7 @@ use crate::app::capture::image::ImageCaptures;
 use crate::app::capture::saved_blends::SavedBlendsExport;
 use crate::app::compare::comparison::Comparison;
 use crate::app::files::file_dialog::FileDialogRequest;
+use crate::app::files::picture_readings::PictureReadings;
 use crate::app::files::gallery_thumbnails::GalleryThumbnails;
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
@@ -148,6 +149,7 @@ pub struct RedrawInputs<'w, 's> {
     map: Res<'w, MapView>,
     notices: Res<'w, Notices>,
     dialog: Res<'w, FileDialogRequest>,
+    readings: Res<'w, PictureReadings>,
     repaint: Res<'w, PanelRepaint>,
     pipelines: Option<Res<'w, PipelinesReady>>,
 }
@@ -187,6 +189,7 @@ impl RedrawInputs<'_, '_> {
             || self.comparison.is_busy()
             || self.map.is_busy()
             || self.dialog.purpose().is_some()
+            || self.readings.is_busy()
             // Notices do not age while the panels are hidden.
             || (self.preferences.panels && self.notices.has_expiring())
     }
@@ -203,6 +206,7 @@ impl RedrawInputs<'_, '_> {
             || self.comparison.is_changed()
             || self.map.is_changed()
             || self.notices.is_changed()
+            || self.readings.is_changed()
     }
 }
 

@@ -15,6 +15,7 @@ use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 use crate::app::analysis::stage_recording::StageRecording;
 use crate::app::capture::{blend_image, clipboard, image};
 use crate::app::escape;
+use crate::app::files::drop::DropSupport;
 use crate::app::files::file_watcher::FileWatcher;
 use crate::app::files::gallery_thumbnails;
 use crate::app::input::intent::Intent;
@@ -35,7 +36,7 @@ use crate::app::session::state::Session;
 use crate::app::stage_area::INITIAL_SIZE;
 use crate::app::ui::draw::UiPlugin;
 use crate::app::view::{filmstrip, stage_camera};
-use crate::app::{redraw_pace, screen_fit, stage_sync};
+use crate::app::{redraw_pace, screen_fit, stage_sync, window_system};
 use crate::export::FilmPresets;
 use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
 
@@ -45,8 +46,8 @@ pub struct AppOptions {
     /// One project, or designs to open together; empty shows the invitation and plays a gallery
     /// project.
     pub files: Vec<PathBuf>,
-    /// Folder for exported images and films; `None` is the folder `Morphospace` in the user's
-    /// pictures.
+    /// Folder for exported images and films until the user chooses another one; `None` is the
+    /// folder of the project.
     pub captures: Option<PathBuf>,
     /// Maximum memory for the recording of a transition, in MiB; `None` is the default limit.
     pub film_memory: Option<usize>,
@@ -59,6 +60,7 @@ pub struct AppOptions {
 /// # Errors
 /// [`NoWindowError`] if there is no display or no graphics driver.
 pub fn run(options: AppOptions) -> Result<AppExit, NoWindowError> {
+    window_system::prefer_x11();
     catch_no_window(|| program(options).run())
 }
 
@@ -79,7 +81,8 @@ fn program(options: AppOptions) -> App {
         .disable::<TerminalCtrlCHandlerPlugin>();
     app.add_plugins(plugins)
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
-        .insert_resource(CaptureFolder::choose(captures))
+        .insert_resource(DropSupport(!window_system::is_wayland()))
+        .insert_resource(CaptureFolder(captures))
         .insert_resource(StageRecording::with_memory_limit(film_memory))
         .insert_resource(autosave.scratch_folder())
         .insert_resource(autosave)

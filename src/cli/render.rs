@@ -148,7 +148,7 @@ impl LayoutArgs {
 }
 
 /// Preset chosen by name.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum PresetChoice {
     /// One of the built-in presets.
     BuiltIn(LayoutPreset),
@@ -169,7 +169,7 @@ fn preset(name: &str) -> Result<PresetChoice, String> {
     };
     let built_in = choice_keys::<LayoutPreset>().map(str::to_owned);
     let names: Vec<String> = built_in.chain(saved.0.keys().cloned()).collect();
-    let chosen = saved.0.get(name).copied().map(PresetChoice::Saved);
+    let chosen = saved.0.get(name).cloned().map(PresetChoice::Saved);
     chosen.ok_or_else(|| format!("use one of {}", names.join(", ")))
 }
 

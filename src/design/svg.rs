@@ -44,6 +44,7 @@ mod xml_entities;
 mod xml_limits;
 mod z_order;
 
+pub use fonts::{InstalledFont, installed_fonts};
 pub use error::SvgError;
 pub(super) use ink_layers::{WindingRings, boolean, union};
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +11,7 @@ use super::target::FilmKind;
 use crate::io::atomic_file::AtomicFile;
 
 /// Export settings for films: everything except duration and easing.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FilmPreset {
     /// Aspect ratio of the images.
@@ -29,6 +29,10 @@ pub struct FilmPreset {
     /// File type; `None` stands for numbered PNGs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<FilmKind>,
+    /// Folder that the window offers first for the exported film; `None` leaves it as it is. The
+    /// command line names the output file itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub folder: Option<PathBuf>,
 }
 
 impl FilmPreset {
@@ -116,10 +120,12 @@ mod tests {
             captions: true,
             fps: 30,
             file: Some(FilmKind::Mp4),
+            folder: Some("/films".into()),
         };
         let pngs = FilmPreset {
             file: None,
-            ..preset
+            folder: None,
+            ..preset.clone()
         };
         let all = [("story, ours", preset), ("frames", pngs)];
         let presets = FilmPresets(all.map(|(name, preset)| (name.to_owned(), preset)).into());

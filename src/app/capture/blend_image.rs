@@ -9,7 +9,7 @@ use crate::app::capture::image_inputs::StageImageInputs;
 use crate::app::input::gesture::TextSelected;
 use crate::app::input::intent::Intent;
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::output_files::CaptureFolder;
+use crate::app::output_files::ExportFolder;
 use crate::export::{PixelSize, rasterise, to_svg};
 
 /// Handles the intents to save or copy an image while the map is shown.
@@ -17,7 +17,7 @@ pub fn capture_blend(
     mut intents: MessageReader<Intent>,
     inputs: StageImageInputs,
     text_selected: Res<TextSelected>,
-    folder: Res<CaptureFolder>,
+    folder: ExportFolder,
     mut captures: ResMut<ImageCaptures>,
     mut notices: ResMut<Notices>,
     mut clipboard: NonSendMut<SystemClipboard>,
@@ -55,7 +55,7 @@ pub fn capture_blend(
             Intent::CopyImage => clipboard.copy_image(&rasterise(&drawing), &mut notices),
             _ => {
                 let name = format!("{}-blend", inputs.session.file_stem());
-                captures.write(&folder, &name, rasterise(&drawing).into());
+                captures.write(folder.path(), &name, rasterise(&drawing).into());
             }
         }
     }

@@ -8,7 +8,7 @@ use crate::app::capture::film_exporter::FilmExporter;
 use crate::app::capture::film_request::{FilmExportError, FilmRequest};
 use crate::app::input::preferences::{FilmExportOptions, FilmFileFormat, Preferences};
 use crate::app::jobs::job::BackgroundJob;
-use crate::app::output_files::{CaptureFolder, ScratchFolder};
+use crate::app::output_files::ScratchFolder;
 use crate::app::session::state::Session;
 use crate::export::FilmCost;
 
@@ -48,7 +48,6 @@ pub fn follow(
     mut estimate: ResMut<ExportEstimate>,
     session: Res<Session>,
     preferences: Res<Preferences>,
-    folder: Res<CaptureFolder>,
     scratch: Res<ScratchFolder>,
     exporter: Res<FilmExporter>,
 ) {
@@ -66,7 +65,7 @@ pub fn follow(
     // estimated duration would be wrong.
     if is_quiet && session.work().is_none() && exporter.work().is_none() {
         now.since = None;
-        now.job = FilmRequest::new(&preferences, &session, &folder, &scratch).map(|request| {
+        now.job = FilmRequest::new(&preferences, &session, &scratch).map(|request| {
             BackgroundJob::start("the export estimate", move |progress| {
                 request.estimate_cost(progress)
             })

@@ -8,11 +8,11 @@ use bevy::prelude::{MessageReader, Res, ResMut, Resource};
 use image::RgbaImage;
 
 use crate::app::capture::film_request::{FilmExportError, FilmPreview, FilmRequest};
-use crate::app::input::intent::Intent;
+use crate::app::input::intent::{ExportKind, Intent};
 use crate::app::input::preferences::Preferences;
 use crate::app::jobs::job::{BackgroundJob, JobError};
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::output_files::{CaptureFolder, ScratchFolder};
+use crate::app::output_files::ScratchFolder;
 use crate::app::session::state::Session;
 
 /// The film export in progress, if any.
@@ -69,36 +69,37 @@ pub fn apply(
     mut notices: ResMut<Notices>,
     session: Res<Session>,
     preferences: Res<Preferences>,
-    folder: Res<CaptureFolder>,
     scratch: Res<ScratchFolder>,
 ) {
-    let new_request = || FilmRequest::new(&preferences, &session, &folder, &scratch);
+    let new_request = || FilmRequest::new(&preferences, &session, &scratch);
     for intent in intents.read() {
         match intent {
             // The job remains until it has deleted its partial file, and then reports that it was
             // cancelled.
             Intent::CancelExport => exporter.cancel(),
-            Intent::ExportFilm | Intent::ExportMethodSheet if exporter.job.is_some() => {
+            Intent::AskExport(_) | Intent::Export(..) if exporter.job.is_some() => {
                 notices.confirm("An export is already running. Wait for it, or cancel it first");
             }
-            Intent::ExportMethodSheet => {
+            Intent::Export(ExportKind::MethodSheet, path) => {
+                let path = path.clone();
                 notices.resolve(NoticeTopic::Film);
                 exporter.preview = FilmPreview::default();
                 if let (Some(request), Some(staged)) = (new_request(), session.staged_segment()) {
                     exporter.job = Some(BackgroundJob::start(
                         "the comparison sheet",
-                        move |progress| request.export_method_sheet(&staged, progress),
+                        move |progress| request.export_method_sheet(&staged, &path, progress),
                     ));
                 }
             }
-            Intent::ExportFilm => {
+            Intent::Export(ExportKind::Film, path) => {
+                let path = path.clone();
                 // Problems of the last export are no longer of interest.
                 notices.resolve(NoticeTopic::Film);
                 exporter.preview = FilmPreview::default();
                 let preview = exporter.preview.clone();
                 exporter.job = new_request().map(|request| {
                     BackgroundJob::start("the film export", move |progress| {
-                        request.export(&preview, progress)
+                        request.export(&path, &preview, progress)
                     })
                 });
             }

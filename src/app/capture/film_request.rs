@@ -10,7 +10,7 @@ use image::RgbaImage;
 use crate::app::capture::film_framing::{FilmFramingError, frame_film};
 use crate::app::input::preferences::{FilmExportOptions, FilmFileFormat, Preferences};
 use crate::app::output_files::{
-    CaptureFolder, CreateFileError, ScratchFolder, check_writable, move_to_free_name,
+    CreateFileError, ScratchFolder, check_writable, move_to_free_path, replace_file,
 };
 use crate::app::session::state::Session;
 use crate::colour::Rgb;
@@ -103,8 +103,6 @@ pub struct FilmRequest {
     /// Background colour; `None` is transparent.
     ground: Option<Rgb>,
     format: FilmFileFormat,
-    folder: PathBuf,
-    stem: String,
     scratch: ScratchFolder,
 }
 
@@ -114,7 +112,6 @@ impl FilmRequest {
     pub fn new(
         preferences: &Preferences,
         session: &Session,
-        folder: &CaptureFolder,
         scratch: &ScratchFolder,
     ) -> Option<Self> {
         let project = session.whole_project()?.clone();
@@ -127,23 +124,24 @@ impl FilmRequest {
             names: session.names_along_path(),
             ground: (!preferences.film.is_transparent).then_some(ground),
             format,
-            folder: folder.0.clone(),
-            stem: session.file_stem(),
             scratch: scratch.clone(),
         })
     }
 
-    /// Exports the film under a name that is not in use; returns its path.
+    /// Exports the film to the file that the user chose; returns its path. The extension of a film
+    /// decides the file type; without one, that of the chosen file type is added.
     ///
     /// # Errors
     /// The settings give no film, or the film cannot be written. In this case no incomplete file is
     /// left.
     pub fn export(
-        self,
+        mut self,
+        chosen: &Path,
         preview: &FilmPreview,
         progress: &dyn Progress,
     ) -> Result<PathBuf, FilmExportError> {
-        check_writable(&self.folder)?;
+        self.format = FilmFileFormat::of_path(chosen).unwrap_or(self.format);
+        let destination = ExportDestination::new(chosen, self.format.extension())?;
         let temp_dir = self.scratch.create_temp_dir()?;
         let path = self.path_in(temp_dir.path(), "film")?;
         let (camera, film) = self.camera_and_film()?;
@@ -154,7 +152,7 @@ impl FilmRequest {
             &ExportTarget::of_path(&path)?.preferring_film(),
             &previewing,
         )?;
-        Ok(move_to_free_name(&path, &self.folder, &self.stem)?)
+        Ok(destination.receive(&path)?)
     }
 
     /// Returns the path of the export in `folder`: a file `name` with the extension of the file
@@ -215,9 +213,10 @@ impl FilmRequest {
     pub fn export_method_sheet(
         self,
         staged: &LoadedProject,
+        chosen: &Path,
         progress: &dyn Progress,
     ) -> Result<PathBuf, FilmExportError> {
-        check_writable(&self.folder)?;
+        let destination = ExportDestination::new(chosen, Some(SHEET_KIND.name().key))?;
         let rows = MethodRow::all(&staged.spec()?, progress)?;
         // The in-betweens on the sheet span t from 0 to 1 for a single segment, and the film's
         // range of t for a whole project.
@@ -229,12 +228,52 @@ impl FilmRequest {
         };
         let drawing = comparison_sheet(&rows, &self.project.style, &times, self.ground)?;
         let temp_dir = self.scratch.create_temp_dir()?;
-        let path = temp_dir.path().join("methods.png");
-        write_still(&drawing, StillKind::Png, &path)?;
-        let stem = format!("{}-methods", self.stem);
-        Ok(move_to_free_name(&path, &self.folder, &stem)?)
+        let path = temp_dir.path().join("methods");
+        write_still(&drawing, SHEET_KIND, &path)?;
+        Ok(destination.receive(&path)?)
     }
 }
+
+/// File or folder to which the user exports.
+struct ExportDestination {
+    path: PathBuf,
+    /// Whether the user chose to replace an existing file.
+    replaces: bool,
+}
+
+impl ExportDestination {
+    /// Adds the extension of the file type to the path that the user chose, if it is missing, and
+    /// checks that the folder can be written to.
+    fn new(chosen: &Path, extension: Option<&str>) -> Result<Self, CreateFileError> {
+        let has_extension = |wanted: &str| {
+            let found = chosen.extension().and_then(|found| found.to_str());
+            found.is_some_and(|found| found.eq_ignore_ascii_case(wanted))
+        };
+        let path = match extension {
+            Some(extension) if !has_extension(extension) => chosen.with_added_extension(extension),
+            _ => chosen.to_owned(),
+        };
+        check_writable(path.parent().unwrap_or(Path::new("")))?;
+        Ok(Self {
+            // The dialog has asked about the path as the user chose it, but about no other.
+            replaces: path == chosen && path.is_file(),
+            path,
+        })
+    }
+
+    /// Moves a finished file or folder here, under another name if this one is in use and the user
+    /// has not confirmed to replace it; returns its path.
+    fn receive(&self, finished: &Path) -> Result<PathBuf, CreateFileError> {
+        if self.replaces {
+            replace_file(finished, &self.path)?;
+            return Ok(self.path.clone());
+        }
+        move_to_free_path(finished, &self.path)
+    }
+}
+
+/// File type of comparison sheets.
+const SHEET_KIND: StillKind = StillKind::Png;
 
 /// Progress receiver that forwards all reports. It also draws the film frame being exported for the
 /// preview, at most once per [`PREVIEW_EVERY`].

@@ -19,7 +19,7 @@ use crate::app::input::intent::Intent;
 use crate::app::input::preferences::ImageScale;
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::output_files::{CaptureFolder, CreateFileError, create_new, keep_if_written};
+use crate::app::output_files::{CreateFileError, ExportFolder, create_new, keep_if_written};
 use crate::stage::{CaptureStage, StageCaptured, StageView};
 
 /// Longer side of a 4K image, in pixels.
@@ -117,7 +117,7 @@ pub fn size_px(view: &StageView, scale_factor: f32, scale: ImageScale) -> UVec2 
 /// Returns an observer that saves the captured image of the window under this name.
 fn window_captured(
     name: String,
-) -> impl FnMut(On<ScreenshotCaptured>, ResMut<ImageCaptures>, ResMut<Notices>, Res<CaptureFolder>)
+) -> impl FnMut(On<ScreenshotCaptured>, ResMut<ImageCaptures>, ResMut<Notices>, ExportFolder)
 {
     move |captured, mut captures, mut notices, folder| match captured
         .image
@@ -125,7 +125,7 @@ fn window_captured(
         .try_into_dynamic()
     {
         // The alpha channel of a window has no meaning in an image file.
-        Ok(image) => captures.write(&folder, &name, image.to_rgb8().into()),
+        Ok(image) => captures.write(folder.path(), &name, image.to_rgb8().into()),
         Err(error) => notices.problem(
             NoticeTopic::Picture,
             format!("Could not capture the window: {error}"),
@@ -145,8 +145,8 @@ impl ImageCaptures {
     }
 
     /// Writes an image with this name to the folder, in the background.
-    pub fn write(&mut self, folder: &CaptureFolder, name: &str, image: DynamicImage) {
-        let (folder, name) = (folder.0.clone(), name.to_owned());
+    pub fn write(&mut self, folder: PathBuf, name: &str, image: DynamicImage) {
+        let name = name.to_owned();
         self.writing
             .push(BackgroundJob::start("the image", move |_| {
                 save(&folder, &name, &image)
@@ -174,7 +174,7 @@ pub fn receive(
     mut captures: ResMut<ImageCaptures>,
     mut notices: ResMut<Notices>,
     mut clipboard: NonSendMut<SystemClipboard>,
-    folder: Res<CaptureFolder>,
+    folder: ExportFolder,
 ) {
     for answer in answers.read() {
         let Some(destination) = captures.awaited.remove(&answer.id) else {
@@ -182,7 +182,7 @@ pub fn receive(
         };
         match (&answer.result, destination) {
             (Ok(image), ImageDestination::File(name)) => {
-                captures.write(&folder, &name, image.clone().into())
+                captures.write(folder.path(), &name, image.clone().into())
             }
             (Ok(image), ImageDestination::Clipboard) => clipboard.copy_image(image, &mut notices),
             (Err(error), _) => notices.problem(NoticeTopic::Picture, error.clone()),

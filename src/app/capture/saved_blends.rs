@@ -9,7 +9,7 @@ use crate::app::input::preferences::Preferences;
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::map::map_view::MapView;
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::output_files::{CaptureFolder, CreateFileError, create_new_folder};
+use crate::app::output_files::{CreateFileError, ExportFolder, create_new_folder};
 use crate::app::session::state::Session;
 use crate::export::{Catalogue, CatalogueOrder, ExportError};
 
@@ -43,7 +43,7 @@ pub fn export(
     map: Res<MapView>,
     session: Res<Session>,
     preferences: Res<Preferences>,
-    folder: Res<CaptureFolder>,
+    folder: ExportFolder,
     mut notices: ResMut<Notices>,
 ) {
     for intent in intents.read() {
@@ -56,7 +56,7 @@ pub fn export(
         let saved_places = project.map.kept.clone();
         let style = session.style();
         let ground = (!preferences.capture_transparent).then_some(style.ground);
-        let (folder, stem) = (folder.0.clone(), format!("{}-kept", session.file_stem()));
+        let (folder, stem) = (folder.path(), format!("{}-kept", session.file_stem()));
         export_job.0 = Some(BackgroundJob::start("the saved blends", move |progress| {
             let to = create_new_folder(&folder, &stem)?;
             let catalogue = Catalogue::new(&space, &map, &saved_places, 0, CatalogueOrder::Saved);

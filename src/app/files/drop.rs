@@ -42,6 +42,16 @@ impl DroppedDesign {
     }
 }
 
+/// Whether the window system delivers files that are dropped on the window.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DropSupport(pub bool);
+
+impl Default for DropSupport {
+    fn default() -> Self {
+        Self(true)
+    }
+}
+
 /// Sort key of a file name, in which numbers compare by value: 2 comes before 10.
 fn natural_sort_key(name: &str) -> Vec<(String, u64)> {
     let digits = |c: &char| c.is_ascii_digit();

@@ -8,12 +8,18 @@ use std::path::{Path, PathBuf};
 
 use bevy::prelude::{Commands, MessageReader, Res, ResMut, Resource};
 
-use crate::app::input::intent::Intent;
+use crate::app::capture::film_exporter::FilmExporter;
+use crate::app::input::intent::{ExportKind, Intent};
+use crate::app::input::preferences::{FilmFileFormat, Preferences};
 use crate::app::notices::{NoticeTopic, Notices};
+use crate::app::output_files::{ExportFolder, free_name};
+use crate::app::persistence::recent_files::StoredRecentFiles;
 use crate::app::session::state::Session;
 use crate::app::unsaved_question::UnsavedQuestion;
 use crate::design::{Format, extensions};
+use crate::export::{FilmKind, StillKind};
 use crate::project::Project;
+use crate::settings::Choice;
 
 /// Purpose for which the file dialog is open.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +35,8 @@ pub enum DialogPurpose {
     Insert(usize),
     /// Save the project, with this suggested file name.
     Save(String),
+    /// Export, with this suggested file name.
+    Export(ExportKind, String),
 }
 
 impl DialogPurpose {
@@ -41,6 +49,8 @@ impl DialogPurpose {
             Self::Replace(_) => "Replace file",
             Self::Insert(_) => "Add designs",
             Self::Save(_) => "Save project",
+            Self::Export(ExportKind::Film, _) => "Export film",
+            Self::Export(ExportKind::MethodSheet, _) => "Export comparison sheet",
         }
     }
 
@@ -52,6 +62,15 @@ impl DialogPurpose {
             Format::ALL.map(|format| (format.name().to_owned(), format.extensions().into()));
         match self {
             Self::Save(_) => vec![projects],
+            Self::Export(ExportKind::MethodSheet, _) => {
+                vec![("PNG image".to_owned(), vec![StillKind::Png.name().key])]
+            }
+            Self::Export(ExportKind::Film, name) => {
+                let format = FilmFileFormat::of_path(name.as_ref());
+                let kind = format.and_then(FilmFileFormat::kind);
+                let named = |kind: FilmKind| (kind.name().title.to_owned(), vec![kind.name().key]);
+                kind.map(named).into_iter().collect()
+            }
             Self::Second(_) | Self::Replace(_) | Self::Insert(_) => {
                 let all = ("All designs".to_owned(), extensions());
                 [all].into_iter().chain(formats).collect()
@@ -95,9 +114,17 @@ pub fn open(
     mut intents: MessageReader<Intent>,
     mut dialog: ResMut<FileDialogRequest>,
     session: Res<Session>,
+    preferences: Res<Preferences>,
+    exporter: Res<FilmExporter>,
+    export_folder: ExportFolder,
 ) {
     for intent in intents.read() {
         let purpose = match intent {
+            Intent::AskExport(kind) if exporter.work().is_none() => {
+                let format = preferences.format(session.project().and_then(|of| of.content));
+                let name = export_name(*kind, format, &session, &export_folder.path());
+                DialogPurpose::Export(*kind, name)
+            }
             Intent::AskOpen => DialogPurpose::Open,
             Intent::AskSecond(first) => DialogPurpose::Second(first.clone()),
             Intent::AskReplace(index) => DialogPurpose::Replace(*index),
@@ -110,10 +137,29 @@ pub fn open(
         };
         let needs_project = !matches!(purpose, DialogPurpose::Open | DialogPurpose::Second(_));
         if dialog.purpose.is_none() && (session.project().is_some() || !needs_project) {
-            dialog.folder = first_folder(&purpose, dialog.last_folder.clone(), &session);
+            dialog.folder = match purpose {
+                DialogPurpose::Export(..) => Some(export_folder.path()),
+                _ => first_folder(&purpose, dialog.last_folder.clone(), &session),
+            };
             dialog.purpose = Some(purpose);
         }
     }
+}
+
+/// Suggested file name of an export: one that is free in `folder`.
+fn export_name(
+    kind: ExportKind,
+    format: FilmFileFormat,
+    session: &Session,
+    folder: &Path,
+) -> String {
+    let stem = session.file_stem();
+    let (stem, extension) = match kind {
+        ExportKind::Film => (stem, format.extension()),
+        ExportKind::MethodSheet => (format!("{stem}-methods"), Some(StillKind::Png.name().key)),
+    };
+    let suffix = extension.map_or_else(String::new, |extension| format!(".{extension}"));
+    free_name(folder, &stem, &suffix)
 }
 
 /// Folder that the dialog shows first. `last` is the folder that the user chose last.
@@ -155,6 +201,7 @@ pub fn apply_choice(
     mut dialog: ResMut<FileDialogRequest>,
     mut question: ResMut<UnsavedQuestion>,
     mut notices: ResMut<Notices>,
+    mut recent: ResMut<StoredRecentFiles>,
     mut commands: Commands,
 ) {
     for intent in intents.read() {
@@ -162,8 +209,12 @@ pub fn apply_choice(
             continue;
         };
         let (purpose, first) = (dialog.purpose.take(), paths.first());
-        if let Some(folder) = first.and_then(|path| path.parent()) {
-            dialog.last_folder = Some(folder.to_owned());
+        notices.resolve(NoticeTopic::FileName);
+        let is_export = matches!(purpose, Some(DialogPurpose::Export(..)));
+        match first.and_then(|path| parent(path)) {
+            Some(folder) if is_export => recent.set_export_folder(&folder),
+            Some(folder) => dialog.last_folder = Some(folder),
+            None => {}
         }
         match (purpose, first) {
             (Some(DialogPurpose::Save(_)), None) => {
@@ -184,13 +235,16 @@ pub fn apply_choice(
             (Some(DialogPurpose::Insert(at)), Some(_)) => {
                 commands.write_message(Intent::InsertDesigns(at, paths.clone()));
             }
+            (Some(DialogPurpose::Export(kind, _)), Some(path)) => {
+                commands.write_message(Intent::Export(kind, path.clone()));
+            }
             (Some(DialogPurpose::Save(_)), Some(path)) => match with_extension(path) {
                 // The dialog has checked only the name without the extension, so the user has not
                 // confirmed overwriting this file.
                 full_path if full_path != *path && full_path.exists() => {
                     let name = full_path.file_name().unwrap_or_default().to_string_lossy();
                     notices.problem(
-                        NoticeTopic::Saving,
+                        NoticeTopic::FileName,
                         format!(
                             "{} already exists. Select it to replace it, or choose another name",
                             full_path.display()

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::design::DesignSource;
+
 /// Maximum number of completions (heuristic: as many as fit next to the file list).
 const MAX_COMPLETIONS: usize = 6;
 
@@ -16,6 +18,19 @@ pub fn expand_path(typed: &str, folder: &Path) -> PathBuf {
         Some(path) => path,
         None => folder.join(typed),
     }
+}
+
+/// Path of the design or project that was typed: a file, an element of a drawing as in
+/// `leaf.svg#stalk`, or text as in `glyph:D`. `None` if its file does not exist.
+#[must_use]
+pub fn typed_source(typed: &str, folder: &Path) -> Option<PathBuf> {
+    let typed = typed.trim();
+    let source = match DesignSource::parse(typed.as_ref(), |_| false) {
+        DesignSource::Text { .. } => DesignSource::in_folder(folder, typed.as_ref()),
+        DesignSource::File { .. } => DesignSource::from_path(&expand_path(typed, folder)),
+    };
+    let exists = source.file().is_none_or(Path::is_file);
+    exists.then(|| source.to_path())
 }
 
 /// Folders, and files with one of the `extensions`, whose names start with the last component
@@ -93,5 +108,23 @@ mod tests {
         let inside = text(&folder.join("Drawings"));
         assert!(completions(&inside, folder, &["svg"]).is_empty());
         assert_eq!(expand_path("cat.png", folder), folder.join("cat.png"));
+    }
+
+    #[test]
+    fn files_elements_and_text_can_be_typed() {
+        let temporary = tempfile::tempdir().expect("a folder");
+        let folder = temporary.path();
+        for name in ["drum.svg", "light.ttf"] {
+            std::fs::write(folder.join(name), "").expect("a file");
+        }
+        let typed = |typed: &str| typed_source(typed, folder);
+        assert_eq!(typed("drum.svg"), Some(folder.join("drum.svg")));
+        assert_eq!(typed("drum.svg#rim"), Some(folder.join("drum.svg#rim")));
+        assert_eq!(typed("drumm.svg"), None);
+        assert_eq!(typed(" glyph:Hello you"), Some("glyph:Hello you".into()));
+        let font = folder.join("light.ttf");
+        let in_font = format!("glyph:D@{}", font.display());
+        assert_eq!(typed("glyph:D@light.ttf"), Some(in_font.into()));
+        assert_eq!(typed("glyph:D@bold.ttf"), None);
     }
 }

@@ -256,7 +256,12 @@ fn next_method(session: &Session) -> Option<(WarpKind, ContentKind)> {
         .into_iter()
         .flat_map(|content| WarpKind::ALL.map(|warp| (warp, content)))
         .collect();
-    let current = (project.warp?, project.content?);
+    // A method that could not be built is not tried again at once; those after it follow.
+    let unavailable = session.unavailable_method();
+    let current = match unavailable {
+        Some(method) => (method.warp(), method.content()),
+        None => (project.warp?, project.content?),
+    };
     let current = methods.iter().position(|method| *method == current)?;
     // All other methods, in cyclic order from the current one.
     let after = methods
@@ -266,6 +271,7 @@ fn next_method(session: &Session) -> Option<(WarpKind, ContentKind)> {
         .take(methods.len() - 1);
     after
         .copied()
+        .filter(|method| (Some(method.0), Some(method.1)) != (project.warp, project.content))
         .find(|(warp, content)| session.check_method(*warp, *content).is_ok())
 }
 
@@ -397,10 +403,13 @@ pub fn poll(
         // Only the latest problem is shown, because earlier ones concern settings that have been
         // replaced.
         notices.resolve(NoticeTopic::Transition);
-        notices.problem(
-            NoticeTopic::Transition,
-            problem_text(problem, session.transition()),
-        );
+        let text = problem_text(problem, session.transition());
+        match session.work() {
+            None => notices.problem(NoticeTopic::Transition, text),
+            // The other segments are being built by the method that plays instead, which ends the
+            // problem before it can be read.
+            Some(_) => notices.note(text),
+        }
     }
 }
 

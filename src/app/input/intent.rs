@@ -119,11 +119,10 @@ pub enum Intent {
     CopyImage,
     /// Copy the stage to the clipboard as an SVG document.
     CopySvg,
-    /// Export the film in the background.
-    ExportFilm,
-    /// Export a sheet that compares all methods for the designs of the current segment, in the
-    /// background.
-    ExportMethodSheet,
+    /// Ask for a folder and a file name for an export.
+    AskExport(ExportKind),
+    /// Export to this file in the background. An existing file is replaced.
+    Export(ExportKind, PathBuf),
     /// Cancel opening or building a project.
     CancelWork,
     /// Build anyway, although the estimate exceeds the time or memory limit.
@@ -223,6 +222,15 @@ pub enum Intent {
     AnswerUnsaved(UnsavedAnswer),
     /// Answer to the offer to recover unsaved work.
     AnswerRecovery(RecoveryAnswer),
+}
+
+/// Kind of an export to a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExportKind {
+    /// The film.
+    Film,
+    /// A sheet that compares all methods for the designs of the current segment.
+    MethodSheet,
 }
 
 /// Answer to "Recover unsaved work?".

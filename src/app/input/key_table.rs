@@ -4,7 +4,7 @@
 use bevy::input::keyboard::Key;
 
 use crate::app::input::editor_action::EditorAction;
-use crate::app::input::intent::Intent;
+use crate::app::input::intent::{ExportKind, Intent};
 use crate::app::input::key_map::KeyTrigger;
 use crate::app::input::key_map::KeyTrigger::{Digit, Letter, Named, Sign};
 use crate::app::input::key_map::{KeyBinding, KeyMap, KeyModifiers, KeyTableRow};
@@ -220,8 +220,7 @@ fn view() -> Vec<KeyTableRow> {
 
 fn files() -> Vec<KeyTableRow> {
     use Intent::{
-        AskOpen, Close, CopyImage, CopySvg, ExportFilm, ExportMethodSheet, New, Save, SaveAs,
-        Screenshot,
+        AskExport, AskOpen, Close, CopyImage, CopySvg, New, Save, SaveAs, Screenshot,
     };
     let letter = |c: char, intent: Intent| key(Letter(c), intent);
     let picture = |with_panels: bool| letter('s', Screenshot { with_panels });
@@ -241,10 +240,10 @@ fn files() -> Vec<KeyTableRow> {
                     letter('c', CopySvg).control().shift(),
                 ],
             ),
-            ("Export film", vec![letter('g', ExportFilm)]),
+            ("Export film", vec![letter('g', AskExport(ExportKind::Film))]),
             (
                 "Export a comparison sheet of all methods",
-                vec![letter('c', ExportMethodSheet)],
+                vec![letter('c', AskExport(ExportKind::MethodSheet))],
             ),
             ("Quit", vec![letter('q', Close).control()]),
         ],

@@ -1,11 +1,13 @@
 //! Preferences of the user that belong to no project: theme, display toggles, export settings,
 //! comparison method.
 
+use std::path::Path;
+
 use bevy::prelude::Resource;
 
 use crate::content::ContentKind;
 use crate::export::{FilmKind, PictureLayout, has_ffmpeg};
-use crate::settings::named;
+use crate::settings::{Choice, named};
 use crate::stage::StageVisibility;
 use crate::transition::{PlayMode, Timing, TransitionMethod, TransitionStop};
 
@@ -177,6 +179,21 @@ impl FilmFileFormat {
             Self::Film(kind) => Some(kind),
             Self::Pngs => None,
         }
+    }
+
+    /// File type with the extension of this path; `None` if it is no film's.
+    #[must_use]
+    pub fn of_path(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+        let mut kinds = FilmKind::ALL.into_iter();
+        let kind = kinds.find(|kind| kind.name().key == extension)?;
+        Some(Self::Film(kind))
+    }
+
+    /// Extension of the file, without a dot; `None` for the folder of PNG images.
+    #[must_use]
+    pub fn extension(self) -> Option<&'static str> {
+        Some(self.kind()?.name().key)
     }
 
     /// Whether films of this type can be transparent. Others always get the background colour.

@@ -1,13 +1,14 @@
 //! Export presets saved under names of the user's choice; the command line can use them too.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use bevy::prelude::{MessageReader, Res, ResMut, Resource, warn};
 
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::{FilmFileFormat, Preferences};
 use crate::app::notices::{NoticeTopic, Notices};
+use crate::app::persistence::recent_files::StoredRecentFiles;
 use crate::app::session::state::Session;
 use crate::content::ContentKind;
 use crate::export::{FilmPreset, FilmPresets};
@@ -59,15 +60,35 @@ impl StoredPresets {
 
     /// Name of the preset that equals the current export settings, if any.
     #[must_use]
-    pub fn in_use(&self, preferences: &Preferences, content: Option<ContentKind>) -> Option<&str> {
-        let now = preset(preferences, content);
-        let matching = self.presets.0.iter().find(|(_, preset)| **preset == now);
+    pub fn in_use(
+        &self,
+        preferences: &Preferences,
+        content: Option<ContentKind>,
+        export_folder: Option<&Path>,
+    ) -> Option<&str> {
+        let now = preset(preferences, content, export_folder);
+        let is_now = |preset: &FilmPreset| match preset.folder {
+            Some(_) => *preset == now,
+            // A preset without a folder leaves the folder as it is.
+            None => {
+                *preset
+                    == FilmPreset {
+                        folder: None,
+                        ..now.clone()
+                    }
+            }
+        };
+        let matching = self.presets.0.iter().find(|(_, preset)| is_now(preset));
         matching.map(|(name, _)| name.as_str())
     }
 }
 
 /// The current export settings as a preset.
-fn preset(preferences: &Preferences, content: Option<ContentKind>) -> FilmPreset {
+fn preset(
+    preferences: &Preferences,
+    content: Option<ContentKind>,
+    export_folder: Option<&Path>,
+) -> FilmPreset {
     let format = preferences.format(content);
     let layout = preferences.film.layout;
     FilmPreset {
@@ -80,6 +101,7 @@ fn preset(preferences: &Preferences, content: Option<ContentKind>) -> FilmPreset
             FilmFileFormat::Film(kind) => Some(kind),
             FilmFileFormat::Pngs => None,
         },
+        folder: export_folder.map(Path::to_owned),
     }
 }
 
@@ -88,6 +110,7 @@ pub fn apply(
     mut intents: MessageReader<Intent>,
     mut stored: ResMut<StoredPresets>,
     mut preferences: ResMut<Preferences>,
+    mut recent: ResMut<StoredRecentFiles>,
     session: Res<Session>,
     mut notices: ResMut<Notices>,
 ) {
@@ -101,14 +124,17 @@ pub fn apply(
                         .file
                         .map_or(FilmFileFormat::Pngs, FilmFileFormat::Film);
                     preferences.record_format = Some(file);
+                    if let Some(folder) = &preset.folder {
+                        recent.set_export_folder(folder);
+                    }
                 }
                 continue;
             }
             Intent::SavePreset(name) => {
                 let content = session.project().and_then(|project| project.content);
-                let now = preset(&preferences, content);
+                let now = preset(&preferences, content, recent.export_folder());
                 let insert = |all: &mut FilmPresets| {
-                    all.0.insert(name.clone(), now);
+                    all.0.insert(name.clone(), now.clone());
                 };
                 stored.change(insert)
             }

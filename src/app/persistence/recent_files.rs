@@ -1,5 +1,5 @@
 //! Recent files: the projects and designs opened last, which the next start offers for opening with
-//! one click.
+//! one click, and the folder of the last export.
 
 use crate::project::title::title_of;
 use std::io::{self, Write};
@@ -55,6 +55,9 @@ impl RecentEntry {
 /// List of the files opened last, the newest first.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecentFiles {
+    /// Folder of the last export.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    export_folder: Option<PathBuf>,
     #[serde(default)]
     opened: Vec<RecentEntry>,
 }
@@ -140,18 +143,44 @@ impl StoredRecentFiles {
         folders
     }
 
-    /// Adds the entry of the open project; it replaces an earlier entry of the same project.
-    fn add(&mut self, opened: RecentEntry) -> io::Result<()> {
-        let replaced = self.open.replace(opened.clone());
-        self.recent.add(opened.clone(), replaced.as_ref());
+    /// Folder of the last export; `None` before the first one, or if it no longer exists.
+    #[must_use]
+    pub fn export_folder(&self) -> Option<&Path> {
+        let folder = self.recent.export_folder.as_deref();
+        folder.filter(|folder| folder.is_dir())
+    }
+
+    /// Remembers the folder that the user chose for an export.
+    pub fn set_export_folder(&mut self, folder: &Path) {
+        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        let change = |recent: &mut RecentFiles| recent.export_folder = Some(folder.clone());
+        if let Err(error) = self.change(change) {
+            warn_unwritten(&error);
+        }
+    }
+
+    /// Changes the list in memory and in its file.
+    fn change(&mut self, change: impl Fn(&mut RecentFiles)) -> io::Result<()> {
+        change(&mut self.recent);
         let Some(path) = &self.path else {
             return Ok(());
         };
-        // Another window may have added entries meanwhile.
+        // Another window may have changed the file meanwhile.
         let mut stored = RecentFiles::read(path);
-        stored.add(opened, replaced.as_ref());
+        change(&mut stored);
         stored.write(path)
     }
+
+    /// Adds the entry of the open project; it replaces an earlier entry of the same project.
+    fn add(&mut self, opened: RecentEntry) -> io::Result<()> {
+        let replaced = self.open.replace(opened.clone());
+        self.change(|recent| recent.add(opened.clone(), replaced.as_ref()))
+    }
+}
+
+/// Logs that the list could not be written. No notice is shown, because the user loses nothing.
+fn warn_unwritten(error: &io::Error) {
+    warn!("cannot write the list of recent files: {error}");
 }
 
 /// Adds the open project to the list. Each project has one entry: designs that are replaced and
@@ -182,8 +211,7 @@ pub fn follow(
         return;
     }
     if let Err(error) = recent.add(entry) {
-        // The error is only logged, because the user loses nothing.
-        warn!("cannot write the list of recent files: {error}");
+        warn_unwritten(&error);
     }
 }
 

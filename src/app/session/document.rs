@@ -1,6 +1,8 @@
 //! The open project: its current and its saved settings, its undo history, and the segments on the
 //! stage.
 
+mod replaced_stage;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -34,6 +36,12 @@ pub struct OpenDocument {
     pub is_recovered: bool,
     /// The segments on the stage: one for each pair of consecutive designs.
     segments: Vec<BuiltSegment>,
+    /// Segments that were on the stage before, the latest last.
+    earlier: Vec<PlayableSegment>,
+    /// Settings that were refused because their transition would take too long or too much memory.
+    refused: Option<Project>,
+    /// The method that was requested last and could not be built.
+    unavailable: Option<TransitionMethod>,
     /// Index of the current segment: the one at the current t.
     segment_index: usize,
     /// Current settings of the current segment, as a project of two designs.
@@ -56,6 +64,9 @@ impl OpenDocument {
             must_reread: false,
             is_recovered: false,
             segments: loaded.segments,
+            earlier: Vec::new(),
+            refused: None,
+            unavailable: None,
             segment_index: 0,
             origin,
             saved: project,
@@ -300,7 +311,8 @@ impl OpenDocument {
 
     /// Replaces the settings of the whole project. Changes with the same gesture number `mark` form
     /// one undo step.
-    pub fn edit(&mut self, project: Project, mark: Option<u64>) {
+    pub fn edit(&mut self, mut project: Project, mark: Option<u64>) {
+        self.retry_unavailable_method(&mut project);
         let before = self.snapshot();
         self.loaded.project = project;
         self.refresh_segment();
@@ -371,6 +383,7 @@ impl OpenDocument {
                 .iter()
                 .filter_map(|segment| segment.playable.clone())
                 .collect(),
+            earlier: self.earlier.clone(),
             must_reread: self.must_reread,
         }
     }
@@ -392,6 +405,13 @@ impl OpenDocument {
             let new = self.segments.iter_mut().zip(built.segments);
             new.for_each(|(segment, built)| segment.problem = built.problem);
             return false;
+        }
+        let is_reread = self.must_reread || load::reads_differently(&self.staged, &built.settings);
+        if is_reread {
+            // Segments of designs that have been read again since must not return.
+            self.earlier.clear();
+        } else {
+            self.keep_earlier();
         }
         // The current settings, `loaded.project`, stay: they may be newer than those of the build.
         self.loaded.designs = built.project.designs;

@@ -121,6 +121,8 @@ pub struct RebuildRequest {
     pub staged: Project,
     /// Segments on the stage.
     pub segments: Vec<PlayableSegment>,
+    /// Segments that were on the stage before.
+    pub earlier: Vec<PlayableSegment>,
     /// Whether a design file has changed on disk, so that all designs are read again.
     pub must_reread: bool,
 }
@@ -150,7 +152,8 @@ impl RebuildRequest {
         {
             return Ok(fully_built(self.requested, stages));
         }
-        let (mut project, mut reusable) = (self.requested, self.segments);
+        let mut reusable = [self.segments, self.earlier].concat();
+        let mut project = self.requested;
         if self.must_reread {
             project = project.reread()?;
             // Segments built from the old files cannot be reused.
@@ -436,7 +439,7 @@ fn build_segment(
 }
 
 /// The candidate that was built from the settings `settings`; `None` if there is none.
-fn find_reusable(
+pub fn find_reusable(
     candidates: &[PlayableSegment],
     settings: &SegmentSettings,
 ) -> Option<PlayableSegment> {
@@ -552,7 +555,8 @@ pub fn needs_build(staged: &Project, now: &Project) -> bool {
 }
 
 /// Whether some design is read from another file or in another way.
-fn reads_differently(staged: &Project, now: &Project) -> bool {
+#[must_use]
+pub fn reads_differently(staged: &Project, now: &Project) -> bool {
     let reading = |project: &Project| -> Vec<_> {
         project
             .designs

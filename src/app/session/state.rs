@@ -23,8 +23,8 @@ use crate::design::{Design, DesignForm};
 use crate::geometry::Bounds;
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::{
-    BuildError, Sequence, SequenceLayout, Timing, Transition, TransitionStop, TransitionStyle,
-    segment_at, style_of,
+    BuildError, Sequence, SequenceLayout, Timing, Transition, TransitionMethod, TransitionStop,
+    TransitionStyle, segment_at, style_of,
 };
 use crate::warp::{Arap, WarpKind};
 
@@ -468,8 +468,28 @@ impl Session {
         let has_changed = open.step_history(step)?;
         if has_changed {
             self.check_stale();
+            self.restage_earlier();
         }
         Ok(has_changed)
+    }
+
+    /// Puts the film back on the stage that was built for the current settings before, if it is
+    /// still known. A build for other settings is then cancelled.
+    fn restage_earlier(&mut self) {
+        let is_rebuilding = self.work.as_ref().is_some_and(|work| work.origin.is_none());
+        if (self.is_stale || is_rebuilding)
+            && let Some(open) = &mut self.open
+            && open.restage_earlier()
+        {
+            self.is_stale = false;
+            self.work.take_if(|work| work.origin.is_none());
+        }
+    }
+
+    /// The method that was requested last and could not be built; `None` once another one was.
+    #[must_use]
+    pub fn unavailable_method(&self) -> Option<TransitionMethod> {
+        self.open.as_ref()?.unavailable_method()
     }
 
     /// Saves the project to its file, or to `to`, which becomes its file; returns the path.

@@ -4,7 +4,7 @@
 use bevy_egui::egui::{self, Align, Color32, Layout, Margin, Panel, Rect, RichText, Ui, vec2};
 
 use crate::app::input::editor_action::EditorAction;
-use crate::app::input::intent::Intent;
+use crate::app::input::intent::{ExportKind, Intent};
 use crate::app::input::preferences::{Preferences, ThemeChoice};
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, ThemePalette};
@@ -129,9 +129,9 @@ fn capture_buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let tip = "Present: only the drawing, from the first stop (F5)";
     let talk = Intent::Present { is_all: false };
     intent_button(ui, icons::PRESENT, tip, talk, intents);
-    let tip = "Export film in the background (G)";
+    let tip = "Export film (G)";
     let icon = icons::RECORD.with_colour(Some(ThemePalette::of(ui).problem));
-    intent_button(ui, icon, tip, Intent::ExportFilm, intents);
+    intent_button(ui, icon, tip, Intent::AskExport(ExportKind::Film), intents);
     let tip = "Save image (S); with panels: Shift S";
     let picture = Intent::Screenshot { with_panels: false };
     intent_button(ui, icons::CAMERA, tip, picture, intents);

@@ -14,12 +14,14 @@ use crate::app::capture::film_framing::FilmFraming;
 use crate::app::compare::comparison::Comparison;
 use crate::app::editing::editor::MatchEditor;
 use crate::app::editing::sheet::MatchSheet;
-use crate::app::files::drop::DroppedDesign;
+use crate::app::files::drop::{DropSupport, DroppedDesign};
 use crate::app::files::file_dialog::FileDialogRequest;
 use crate::app::files::file_preview::FilePreview;
 use crate::app::files::gallery_thumbnails::GalleryThumbnails;
 use crate::app::files::invitation::Invitation;
+use crate::app::files::picture_readings::PictureReadings;
 use crate::app::files::project_actions::GalleryEntries;
+use crate::app::files::text_fonts::TextFonts;
 use crate::app::input::intent::Intent;
 use crate::app::input::key_map::KeyMap;
 use crate::app::input::preferences::Preferences;
@@ -69,6 +71,9 @@ pub struct UiState<'w> {
     pub dialog: Res<'w, FileDialogRequest>,
     pub dropped_design: Res<'w, DroppedDesign>,
     pub preview: Res<'w, FilePreview>,
+    pub fonts: Res<'w, TextFonts>,
+    pub readings: Res<'w, PictureReadings>,
+    pub drop_support: Res<'w, DropSupport>,
     pub keys: Res<'w, KeyMap>,
     pub frame_times: Res<'w, FrameTimes>,
     pub frame_intervals: Res<'w, FrameIntervals>,

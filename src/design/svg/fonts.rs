@@ -5,9 +5,10 @@ use crate::design::lettering::BUNDLED_FONT;
 use skrifa::MetadataProvider;
 use skrifa::raw::FontRef;
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use usvg::fontdb::{Database, Family, ID, Query, Source, Style, Weight};
+use usvg::fontdb::{Database, FaceInfo, Family, ID, Query, Source, Style, Weight};
 use usvg::{Font, FontFamily, FontResolver, FontStyle};
 
 /// Maximum number of font searches in one drawing. A search looks for a font with a character that
@@ -136,6 +137,55 @@ pub(super) fn fonts() -> Arc<Database> {
         Arc::new(fonts)
     });
     Arc::clone(found)
+}
+
+/// A font of this machine that text can be drawn in.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct InstalledFont {
+    /// Name for the user: family and style.
+    pub name: String,
+    /// Path of the font file.
+    pub path: PathBuf,
+}
+
+/// Returns the installed fonts, sorted by name. Of a file with several fonts, only the first is
+/// listed, because text uses the first. Takes long on the first call, which reads all font files.
+#[must_use]
+pub fn installed_fonts() -> Vec<InstalledFont> {
+    let fonts = fonts();
+    let first_faces = fonts.faces().filter(|face| face.index == 0);
+    let listed = first_faces.filter_map(|face| {
+        let (Source::File(path) | Source::SharedFile(path, _)) = &face.source else {
+            return None;
+        };
+        let name = format!("{} {}", face.families.first()?.0, style_name(face));
+        Some(InstalledFont {
+            name: name.trim_end().to_owned(),
+            path: path.clone(),
+        })
+    });
+    let mut listed: Vec<InstalledFont> = listed.collect();
+    listed.sort();
+    listed.dedup_by(|a, b| a.path == b.path);
+    listed
+}
+
+/// Weight and slope of a font in words; empty for a regular upright one.
+fn style_name(face: &FaceInfo) -> String {
+    let weight = match face.weight.0 {
+        0..=350 => "Light",
+        351..=450 => "",
+        451..=550 => "Medium",
+        551..=650 => "Semibold",
+        651..=850 => "Bold",
+        _ => "Black",
+    };
+    let slope = match face.style {
+        Style::Normal => "",
+        Style::Italic | Style::Oblique => "Italic",
+    };
+    let words = [weight, slope].into_iter().filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// Common serif fonts of operating systems in order of preference.

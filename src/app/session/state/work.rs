@@ -4,6 +4,8 @@
 use std::time::Duration;
 
 use super::Session;
+use crate::app::session::document::OpenDocument;
+use crate::app::session::load;
 use crate::app::jobs::job::JobError;
 use crate::app::session::load::{LoadError, LoadRequest};
 use crate::app::session::transition_work::TransitionWork;
@@ -57,6 +59,7 @@ impl Session {
     pub fn build_anyway(&mut self) {
         if let Some(open) = &mut self.open {
             open.loaded.patient = true;
+            open.request_refused();
             // The build is tried again and reports its problems anew.
             open.clear_problems();
             self.is_stale = true;
@@ -102,6 +105,9 @@ impl Session {
             Some(work) if must_wait(work) => None,
             _ => self.adopt_result().or_else(|| self.adopt_interim()),
         };
+        if outcome.is_some() {
+            self.adopt_playing_method();
+        }
         // While a slider is dragged, a short build is completed, so that intermediate results
         // appear; a long one is abandoned.
         let can_start = self
@@ -118,6 +124,16 @@ impl Session {
             ))));
         }
         outcome
+    }
+
+    /// Requests the method that plays if the requested one could not be built, so that the panels
+    /// and the saved project name the method that is seen.
+    fn adopt_playing_method(&mut self) {
+        let is_adopted = self.open.as_mut().is_some_and(OpenDocument::adopt_playing_method);
+        // If only some segments could not be built, the others must be built again.
+        if is_adopted && let Some(open) = &self.open {
+            self.is_stale |= load::needs_build(&open.staged, &open.loaded.project);
+        }
     }
 
     /// Puts an interim result on the stage if one is due.

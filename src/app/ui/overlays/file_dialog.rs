@@ -10,7 +10,7 @@ use crate::app::files::file_dialog::DialogPurpose;
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::theme;
 use crate::app::ui::overlays::file_side_panel;
-use crate::app::ui::overlays::file_side_panel::TypedPath;
+use crate::app::ui::overlays::file_side_panel::{TextDesign, TypedPath};
 use crate::app::ui::ui_state::{Intents, UiState};
 
 /// Size of the file dialog, in points. It must fit into the smallest window.
@@ -24,6 +24,7 @@ struct OpenFileDialog {
     purpose: DialogPurpose,
     dialog: FileDialog,
     typed: TypedPath,
+    text: TextDesign,
 }
 
 /// Draws the file dialog while the app requests files, and sends the user's answer. Returns the
@@ -45,6 +46,7 @@ pub fn show(
         purpose: purpose.clone(),
         dialog: dialog(purpose, state),
         typed: TypedPath::default(),
+        text: TextDesign::default(),
     });
     // Escape is handled here, because the dialog itself would first remove the focus from its text
     // field instead of closing.
@@ -55,7 +57,7 @@ pub fn show(
     // The dialog uses the background colour of selected text as the text colour of selected names,
     // so this colour must be bright.
     theme::with_bright_selection(ctx, |ctx| match purpose {
-        DialogPurpose::Save(_) => {
+        DialogPurpose::Save(_) | DialogPurpose::Export(..) => {
             open_dialog.dialog.update(ctx);
         }
         _ => draw_with_side_panel(ctx, state, open_dialog, intents),
@@ -83,7 +85,7 @@ fn draw_with_side_panel(
     let extensions = filters
         .first()
         .map_or(&[][..], |(_, extensions)| extensions);
-    let typed = &mut open_dialog.typed;
+    let (typed, text) = (&mut open_dialog.typed, &mut open_dialog.text);
     let mut panel = |ui: &mut Ui, dialog: &mut FileDialog| {
         let last_selected = dialog.selected_entries().last();
         let entry = last_selected.or(dialog.selected_entry());
@@ -96,8 +98,16 @@ fn draw_with_side_panel(
         if let Some(path) = file_side_panel::field(ui, typed, folder, extensions) {
             intents.push(Intent::AnswerDialog(vec![path]));
         }
-        let file = entry.filter(|entry| entry.is_file() && !typed.has_completions());
-        file_side_panel::preview(ui, state, file.map(DirectoryEntry::as_path), intents);
+        if typed.has_completions() {
+            return;
+        }
+        if let Some(path) = file_side_panel::text_design(ui, state, text) {
+            intents.push(Intent::AnswerDialog(vec![path]));
+        }
+        let text = text.path();
+        let file = entry.filter(|entry| entry.is_file());
+        let shown = text.as_deref().or(file.map(DirectoryEntry::as_path));
+        file_side_panel::preview(ui, state, shown, intents);
     };
     open_dialog
         .dialog
@@ -142,7 +152,7 @@ fn dialog(purpose: &DialogPurpose, state: &UiState) -> FileDialog {
             dialog.pick_multiple();
         }
         DialogPurpose::Replace(_) => dialog.pick_file(),
-        DialogPurpose::Save(name) => {
+        DialogPurpose::Save(name) | DialogPurpose::Export(_, name) => {
             dialog = dialog.default_file_name(name);
             dialog.save_file();
         }

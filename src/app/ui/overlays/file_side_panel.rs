@@ -1,18 +1,22 @@
-//! Side panel of the file dialog: a path field with completion, and a preview of the selected file.
+//! Side panel of the file dialog: a path field with completion, text as a design, and a preview of
+//! the selected file or of the text.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use bevy_egui::egui::{Button, Color32, Id, Key, Modifiers, Rect, TextEdit, Ui, pos2, vec2};
+use bevy_egui::egui::{
+    Button, Color32, ComboBox, Id, Key, Modifiers, Rect, TextEdit, Ui, pos2, vec2,
+};
 use image::RgbaImage;
 
 use crate::app::files::file_preview::PREVIEW_PX;
-use crate::app::files::path_completion::{completions, expand_path, text};
+use crate::app::files::path_completion::{completions, text, typed_source};
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::texture::texture;
 use crate::app::ui::kit::theme::{GRID, RADIUS, ThemePalette};
 use crate::app::ui::kit::widgets::secondary_text;
 use crate::app::ui::ui_state::{Intents, UiState};
+use crate::design::{DesignSource, InstalledFont};
 
 /// Width of the file dialog's side panel, in points.
 pub const WIDTH: f32 = 192.0;
@@ -90,8 +94,66 @@ pub fn field(
         let end = typed.text.chars().count();
         set_cursor(ui, id, end);
     }
-    let path = expand_path(&typed.text, folder);
-    (is_entered && path.is_file()).then_some(path)
+    typed_source(&typed.text, folder).filter(|_| is_entered)
+}
+
+/// Text that the user enters as a design, and the font chosen for it.
+#[derive(Debug, Default)]
+pub struct TextDesign {
+    text: String,
+    /// The font; `None` is the bundled font.
+    font: Option<InstalledFont>,
+}
+
+impl TextDesign {
+    /// Returns the path of the design; `None` while the text is empty.
+    pub fn path(&self) -> Option<PathBuf> {
+        let source = DesignSource::Text {
+            text: self.text.trim().to_owned(),
+            font: self.font.as_ref().map(|font| font.path.clone()),
+        };
+        (!self.text.trim().is_empty()).then(|| source.to_path())
+    }
+}
+
+/// Draws the fields for text and its font. Returns the design that the user confirmed.
+pub fn text_design(ui: &mut Ui, state: &UiState, design: &mut TextDesign) -> Option<PathBuf> {
+    ui.add_space(GRID);
+    ui.label(secondary_text(ui, "Or text as a design"));
+    let edit = TextEdit::singleline(&mut design.text)
+        .hint_text("Hello")
+        .desired_width(f32::INFINITY);
+    let response = ui.add(edit);
+    let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    font_list(ui, state, &mut design.font);
+    let path = design.path();
+    let button = ui.add_enabled(path.is_some(), Button::new("Use text"));
+    path.filter(|_| button.clicked() || is_entered)
+}
+
+/// Draws the list of fonts; the bundled one comes first.
+fn font_list(ui: &mut Ui, state: &UiState, font: &mut Option<InstalledFont>) {
+    let name = |font: &Option<InstalledFont>| match font {
+        Some(font) => font.name.clone(),
+        None => "Roboto Bold (built in)".to_owned(),
+    };
+    let list = ComboBox::from_id_salt("font")
+        .width(ui.available_width())
+        .truncate()
+        .selected_text(name(font));
+    list.show_ui(ui, |ui| {
+        ui.selectable_value(font, None, name(&None));
+        match state.fonts.list() {
+            Some(fonts) => {
+                for each in fonts {
+                    ui.selectable_value(font, Some(each.clone()), &each.name);
+                }
+            }
+            None => {
+                ui.label(secondary_text(ui, "Looking for fonts …"));
+            }
+        }
+    });
 }
 
 /// Puts the text cursor at the end of the completed text.

@@ -38,11 +38,12 @@ pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) -> Rect {
         ScrollArea::vertical()
             .max_height(height)
             .show(ui, |ui| list(ui, state.keys.rows()));
-        hint(
-            ui,
-            "Drag the stage to pan, scroll to zoom, double-click to fit to view. \
-             Drop files anywhere to open them.",
-        );
+        let files = match state.drop_support.0 {
+            true => "Drop files anywhere to open them.",
+            false => "Open files with Ctrl O: Wayland delivers no dropped files.",
+        };
+        let view = "Drag the stage to pan, scroll to zoom, double-click to fit to view.";
+        hint(ui, &format!("{view} {files}"));
     });
     if response.backdrop_response.clicked() {
         intents.push(Intent::ToggleHelp);

@@ -4,21 +4,25 @@
 use std::ops::RangeInclusive;
 
 use bevy_egui::egui::{
-    Align, CollapsingHeader, Color32, DragValue, Label, Layout, RichText, Sense, Ui, vec2,
+    Align, Align2, CollapsingHeader, Color32, DragValue, Label, Layout, Rect, RichText, Sense,
+    StrokeKind, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
+use crate::app::files::picture_readings::ReadingChoice;
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::text::capitalised;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, ThemePalette};
+use crate::app::ui::kit::texture::texture;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, RADIUS, SMALL, ThemePalette};
 use crate::app::ui::kit::widgets::{
-    automatic_toggle, drag_value, from_right, icon_button, number, row, secondary_text, section,
+    automatic_toggle, drag_value, from_right, hint, icon_button, number, row, secondary_text, section,
     setting_row, slider, toggle,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
-use crate::design::{Format, ImportNote};
+use crate::design::{Format, ImportNote, PictureReading};
 use crate::project::{DesignEntry, MovedDesigns, Project};
+use crate::settings::Choice;
 
 /// Initial grey threshold of an image when the user turns off the automatic one: the middle of the
 /// 256 grey levels.
@@ -64,6 +68,8 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
             };
             design(ui, &heading, entry, intents);
             if let Some(design) = state.session.all_designs().get(number) {
+                let choices = state.readings.choices(design);
+                readings(ui, index, choices, &mut entry.import.reading);
                 notes(ui, index, &design.notes);
             }
         }
@@ -187,6 +193,76 @@ fn design(ui: &mut Ui, heading: &DesignHeading, entry: &mut DesignEntry, intents
                 .show_unindented(ui, |ui| import_options(ui, entry));
         }
     });
+}
+
+/// Draws the silhouettes that can be read from a picture, as buttons of which the one in use is
+/// marked. Draws nothing if there is no choice.
+fn readings(ui: &mut Ui, index: usize, choices: &[ReadingChoice], reading: &mut PictureReading) {
+    let Some(automatic) = choices.first() else {
+        return;
+    };
+    let used = match *reading {
+        PictureReading::Auto => automatic.reading,
+        chosen => chosen,
+    };
+    let how = match *reading {
+        PictureReading::Auto => "chosen automatically",
+        _ => "chosen by you",
+    };
+    let text = format!(
+        "Silhouette read by {} ({how}). Click another one to use it:",
+        used.name().title.to_lowercase()
+    );
+    hint(ui, &text);
+    ui.horizontal(|ui| {
+        for choice in choices {
+            let salt = ("reading", index, choice.reading.name().key);
+            if reading_button(ui, salt, choice, choice.reading == used) {
+                *reading = choice.reading;
+            }
+        }
+    });
+    ui.add_space(GRID);
+}
+
+/// Side of the picture of a silhouette, in points.
+const READING_SIDE: f32 = 64.0;
+
+/// Draws the picture and the name of a silhouette; returns whether it was clicked.
+fn reading_button(
+    ui: &mut Ui,
+    salt: impl std::hash::Hash,
+    choice: &ReadingChoice,
+    is_used: bool,
+) -> bool {
+    let name = choice.reading.name();
+    let line = ui.text_style_height(&TextStyle::Small);
+    let size = vec2(READING_SIDE + GRID, READING_SIDE + line + GRID);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| {
+        WidgetInfo::selected(WidgetType::SelectableLabel, true, is_used, name.title)
+    });
+    let palette = ThemePalette::of(ui);
+    let (fill, outline) = match (is_used, response.hovered()) {
+        (true, _) => (palette.accent_fill, palette.accent),
+        (false, true) => (palette.hover, palette.line),
+        (false, false) => (palette.raised, palette.line),
+    };
+    ui.painter()
+        .rect(rect, RADIUS, fill, (1.0, outline), StrokeKind::Inside);
+    let place = Rect::from_min_size(
+        rect.min + vec2(0.5 * GRID, 0.5 * GRID),
+        vec2(READING_SIDE, READING_SIDE),
+    );
+    let id = ui.id().with(salt);
+    let texture = texture(ui.ctx(), id, &choice.image, u32::MAX);
+    let full_uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    ui.painter()
+        .image(texture.id(), place, full_uv, Color32::WHITE);
+    let at = rect.center_bottom() - vec2(0.0, 2.0);
+    ui.painter()
+        .text(at, Align2::CENTER_BOTTOM, name.title, SMALL, palette.text);
+    response.on_hover_text(name.sentence).clicked()
 }
 
 /// Draws the import notes of a design: reports of repairs and of ignored content.

@@ -4,7 +4,7 @@
 
 use bevy_egui::egui::{Button, ComboBox, Frame, Key, Margin, Panel, Response, TextEdit, Ui, vec2};
 
-use crate::app::input::intent::Intent;
+use crate::app::input::intent::{ExportKind, Intent};
 use crate::app::input::preferences::{FilmExportOptions, FilmFileFormat, ImageScale, Preferences};
 use crate::app::playback::player::landmarks;
 use crate::app::ui::kit::icons;
@@ -62,8 +62,8 @@ pub fn foot(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
         ui.add_space(GRID);
         let is_free = state.exporter.work().is_none() && state.film_framing.0.is_some();
         ui.add_enabled_ui(is_free, |ui| {
-            if primary_button(ui, "Export").clicked() {
-                intents.push(Intent::ExportFilm);
+            if primary_button(ui, "Export …").clicked() {
+                intents.push(Intent::AskExport(ExportKind::Film));
             }
         });
     });
@@ -192,7 +192,11 @@ fn preset(ui: &mut Ui, draft: &mut Preferences) {
 
 /// Draws the list of the user's own presets, with entries that save and delete a preset.
 fn my_presets(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
-    let in_use = state.presets.in_use(&state.preferences, content(state));
+    let in_use = state.presets.in_use(
+        &state.preferences,
+        content(state),
+        state.recent.export_folder(),
+    );
     let tip = "Your saved export settings, also for --preset on the command line.";
     row(ui, "My presets", tip, |ui| {
         let list = ComboBox::from_id_salt("my presets")

@@ -20,6 +20,12 @@ use crate::project::gallery::GalleryEntry;
 
 const HEADLINE: &str = "Drop two or more files here";
 
+/// Headline where the window system delivers no dropped files.
+const HEADLINE_WITHOUT_DROPS: &str = "Open two or more files (Ctrl O)";
+
+/// Says why files cannot be dropped.
+const NO_DROPS: &str = "Wayland delivers no dropped files here; press Ctrl O. ";
+
 const FORMATS: &str = "SVG, DXF, PNG, OBJ, letters, trusses …";
 
 /// Maximum width of the invitation's card, in points (heuristic).
@@ -82,10 +88,14 @@ pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, inte
             frame(ui, card);
             let inner = card.shrink(PADDING);
             let [headline, formats, button] = plan.lines(inner);
-            row(ui, headline, |ui| show_headline(ui, intents));
+            row(ui, headline, |ui| show_headline(ui, state, intents));
             if plan.has_formats {
+                let reason = match state.drop_support.0 {
+                    true => "",
+                    false => NO_DROPS,
+                };
                 row(ui, formats, |ui| {
-                    ui.label(secondary_text(ui, FORMATS));
+                    ui.label(secondary_text(ui, format!("{reason}{FORMATS}")));
                 });
             }
             row(ui, button, |ui| show_button(ui, plan.rows > 0, intents));
@@ -119,8 +129,12 @@ fn row(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
     ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), content);
 }
 
-fn show_headline(ui: &mut Ui, intents: &mut Intents) {
-    ui.label(RichText::new(HEADLINE).heading());
+fn show_headline(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let headline = match state.drop_support.0 {
+        true => HEADLINE,
+        false => HEADLINE_WITHOUT_DROPS,
+    };
+    ui.label(RichText::new(headline).heading());
     from_right(ui, |ui| {
         let size = vec2(HEADLINE_HEIGHT, HEADLINE_HEIGHT);
         if icon_button(ui, icons::CLOSE, "Close (Esc)", size).clicked() {
