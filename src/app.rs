@@ -73,10 +73,11 @@ pub mod testing {
     pub use super::files::drop::DroppedDesign;
     pub use super::files::file_dialog::{DialogPurpose, FileDialogRequest};
     pub use super::files::invitation::{Invitation, START_PROJECT};
+    pub use super::files::picture_readings::PictureReadings;
     pub use super::files::project_actions::GalleryEntries;
     pub use super::input::editor_action::{EditorAction, EditorPane, EditorPointer, EditorTool};
     pub use super::input::gesture::KeyboardFocus;
-    pub use super::input::intent::{Intent, RecoveryAnswer, UnsavedAnswer};
+    pub use super::input::intent::{ExportKind, Intent, RecoveryAnswer, UnsavedAnswer};
     pub use super::input::key_map::{KeyBinding, KeyMap, KeyModifiers, KeyTableRow, KeyTrigger};
     pub use super::input::preferences::{
         ComparisonMethod, FilmExportOptions, FilmFileFormat, ImageScale, Preferences, ThemeChoice,
@@ -85,8 +86,8 @@ pub mod testing {
     pub use super::logic::LogicPlugin;
     pub use super::map::map_view::{MapBuildError, MapView};
     pub use super::notices::{Notice, NoticeKind, NoticeTopic, Notices};
-    pub use super::output_files::CaptureFolder;
     pub use super::persistence::autosave::Autosave;
+    pub use super::persistence::recent_files::StoredRecentFiles;
     pub use super::playback::player::Playback;
     pub use super::presentation::presenter::Presentation;
     pub use super::redraw_pace::{PanelRepaint, RedrawPace};

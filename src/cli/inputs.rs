@@ -144,6 +144,9 @@ impl InputArgs {
             .map_err(CliError::failed)?
             .map_err(CliError::failed)?;
         loaded.patient = method.patient;
+        if self.inputs.len() > 1 {
+            loaded.adopt_drawn_colours();
+        }
         Ok(loaded)
     }
 

@@ -70,6 +70,7 @@ fn write(args: &NewArgs) -> Result<(), CliError> {
     let loaded = LoadedProject::load(project, Some(folder.to_owned()));
     let mut loaded = loaded.map_err(CliError::failed)?;
     loaded.patient = args.method.patient;
+    loaded.adopt_drawn_colours();
     for segment in loaded.segments() {
         let spec = segment.spec().map_err(CliError::failed)?;
         let available = TransitionSpec::available(spec.method, &spec.source, &spec.target);

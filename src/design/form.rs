@@ -9,6 +9,7 @@ use super::silhouette;
 use super::silhouette::{SilhouetteError, choose_tones};
 use super::truss::Truss;
 use super::unit::LengthUnit;
+use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError, Similarity};
 use crate::mesh::TriangleMesh;
 use image::RgbaImage;
@@ -37,6 +38,9 @@ pub struct Design {
     /// Regions with their own colours or names, lowest layer first; empty if the file specifies
     /// neither.
     pub paint_layers: Vec<PaintLayer>,
+    /// Colour in which other programs show the drawing although its file names none, such as the
+    /// black of an icon; `None` if the file names colours or has none at all.
+    pub drawn_colour: Option<Rgb>,
     /// Repairs and omissions made during the import.
     pub notes: Vec<ImportNote>,
     /// Unit of the coordinates, if the file declares one.
@@ -74,6 +78,7 @@ impl Design {
             form,
             picture: None,
             paint_layers: Vec::new(),
+            drawn_colour: None,
             notes: Vec::new(),
             unit: None,
         }
@@ -310,6 +315,8 @@ pub(super) struct ImportedOutlines {
     pub(super) extent: Bounds,
     /// Regions with colours or names, lowest layer first; empty if the file specifies neither.
     pub(super) paint_layers: Vec<PaintLayer>,
+    /// Colour of a drawing that names none; see [`Design::drawn_colour`].
+    pub(super) drawn_colour: Option<Rgb>,
     /// Repairs and omissions made during the import.
     pub(super) notes: Vec<ImportNote>,
 }
@@ -320,6 +327,7 @@ impl ImportedOutlines {
         Design {
             extent: self.extent,
             paint_layers: self.paint_layers,
+            drawn_colour: self.drawn_colour,
             notes: self.notes,
             ..Design::new(name, self.regions)
         }

@@ -286,6 +286,7 @@ impl TextLine {
         let rings = self.rings(font, &mut flattener)?;
         let regions = Regions::from_rings(&rings, FillRule::NonZero)?;
         Ok(ImportedOutlines {
+            drawn_colour: None,
             paint_layers: Vec::new(),
             extent: self.page.union(&regions.bounds()),
             regions,

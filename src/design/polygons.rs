@@ -258,6 +258,7 @@ impl PolygonCollector {
         notes.extend(ImportNote::from_repairs(&repairs, FillRule::EvenOdd));
         notes.extend(ImportNote::from_skipped(self.skipped));
         Ok(ImportedOutlines {
+            drawn_colour: None,
             paint_layers: layers_by_style(styled),
             extent: regions.bounds(),
             regions,

@@ -44,8 +44,8 @@ mod xml_entities;
 mod xml_limits;
 mod z_order;
 
-pub use fonts::{InstalledFont, installed_fonts};
 pub use error::SvgError;
+pub use fonts::{InstalledFont, installed_fonts};
 pub(super) use ink_layers::{WindingRings, boolean, union};
 
 use super::flatten::MIN_TOLERANCE;
@@ -137,7 +137,9 @@ pub(super) fn read(
         min: DVec2::ZERO,
         max: size,
     };
-    let layers = match has_colours::names_a_colour(&document) {
+    let names_a_colour = has_colours::names_a_colour(&document);
+    let drawn = painted.shapes.first().map(|shape| shape.paint.colour);
+    let layers = match names_a_colour {
         true => paint_layers::paint_layers(painted.shapes, size),
         false => paint_layers::uncoloured_layers(painted.shapes, size),
     };
@@ -149,6 +151,7 @@ pub(super) fn read(
         },
         regions,
         paint_layers: layers,
+        drawn_colour: drawn.filter(|_| !names_a_colour),
     })
 }
 

@@ -4,6 +4,7 @@ use super::document::{DesignEntry, Project};
 use super::error::ProjectError;
 use super::segment_features::features_in_all_designs;
 use super::title::title_of;
+use crate::colour::Rgb;
 use crate::content::ContentKind;
 use crate::correspondence::MatchSettings;
 use crate::design::{Design, DesignForm, DesignSource};
@@ -13,7 +14,8 @@ use crate::io::sanitize::SanitizedLine;
 use crate::space::{DesignSpace, SpaceNote, SpaceSpec, WeightMap};
 use crate::transition::{
     BuildError, BuildQuality, PartTime, Transition, TransitionMethod, TransitionNote,
-    TransitionOptions, TransitionSpec, UnsupportedMethod, frame_similarity, place_in_frame,
+    TransitionOptions, TransitionSpec, TransitionStyle, UnsupportedMethod, frame_similarity,
+    place_in_frame,
 };
 use crate::warp::{ManyFeatures, WarpKind};
 use crate::work::progress::{OverallProgress, Progress};
@@ -248,6 +250,27 @@ impl LoadedProject {
             title_of(&names)
         } else {
             SanitizedLine(&self.project.title).to_string()
+        }
+    }
+
+    /// Returns the colours in which other programs show the first and the last design, if all
+    /// designs are drawings that name no colour, such as black icons.
+    #[must_use]
+    pub fn drawn_colours(&self) -> Option<[Rgb; 2]> {
+        let colours = self.designs.iter().map(|design| design.drawn_colour);
+        let colours: Option<Vec<Rgb>> = colours.collect();
+        let colours = colours?;
+        Some([*colours.first()?, *colours.last()?])
+    }
+
+    /// Gives a new project the colours in which its designs are drawn, unless others were chosen.
+    pub fn adopt_drawn_colours(&mut self) {
+        let plain = TransitionStyle::default();
+        let style = &self.project.style;
+        let is_chosen = (style.source, style.target) != (plain.source, plain.target);
+        if let Some([source, target]) = self.drawn_colours().filter(|_| !is_chosen) {
+            let style = &mut self.project.style;
+            (style.source, style.target) = (source, target);
         }
     }
 

@@ -5,11 +5,12 @@
 use std::path::Path;
 
 use crate::headless_window::{HeadlessWindow, gallery_names};
+use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{Entity, With};
 use bevy::window::{FileDragAndDrop, WindowCloseRequested};
 use morphospace::app::testing::{
-    DialogPurpose, DroppedDesign, FileDialogRequest, Intent, OnStage, UnsavedAnswer,
-    UnsavedQuestion,
+    DialogPurpose, DroppedDesign, FileDialogRequest, Intent, Invitation, MapView, NoticeTopic,
+    Notices, OnStage, StoredRecentFiles, UnsavedAnswer, UnsavedQuestion,
 };
 use morphospace::content::Content;
 use morphospace::stage::{Blend, StageTransition};
@@ -362,4 +363,111 @@ fn a_project_dropped_with_other_files_is_refused() {
         &[nowhere, nowhere, Path::new("/nowhere/a.morph")],
     );
     assert_eq!(window.problems().len(), 1);
+}
+
+/// Presses a letter with Control.
+fn press_with_control(window: &mut HeadlessWindow, code: KeyCode, key: &str) {
+    window.hold(KeyCode::ControlLeft, Key::Control, |window| {
+        window.type_char(code, key);
+    });
+    window.update();
+}
+
+#[test]
+fn ctrl_n_closes_the_project_and_asks_about_unsaved_changes() {
+    let mut window = HeadlessWindow::with_gallery();
+    window.send(Intent::ToggleMap);
+    window.send(Intent::Seek(0.123));
+    window.send(Intent::AddStop);
+    press_with_control(&mut window, KeyCode::KeyN, "n");
+    let question = |window: &HeadlessWindow| {
+        let question = window.0.world().resource::<UnsavedQuestion>();
+        question.text().map(str::to_owned)
+    };
+    assert!(question(&window).is_some() && window.session().project().is_some());
+    window.send(Intent::AnswerUnsaved(UnsavedAnswer::Discard));
+    (0..3).for_each(|_| window.update());
+    assert!(question(&window).is_none());
+    assert!(window.session().project().is_none() && !window.session().can_undo());
+    assert!(window.0.world().resource::<Invitation>().is_shown());
+    assert!(!window.0.world().resource::<MapView>().is_shown);
+    assert_eq!(window.t(), 0.0);
+    let world = window.0.world_mut();
+    let mut staged = world.query_filtered::<(), With<OnStage>>();
+    assert_eq!(staged.iter(world).count(), 0, "the stage is empty");
+    window.send(Intent::OpenGallery(gallery_names().remove(0)));
+    window.wait();
+    assert!(window.session().transition().is_some());
+}
+
+#[test]
+fn ctrl_q_quits_and_asks_about_unsaved_changes() {
+    let mut window = HeadlessWindow::with_gallery();
+    window.send(Intent::Seek(0.123));
+    window.send(Intent::AddStop);
+    press_with_control(&mut window, KeyCode::KeyQ, "q");
+    assert!(window.0.should_exit().is_none());
+    window.send(Intent::AnswerUnsaved(UnsavedAnswer::Discard));
+    window.update();
+    assert!(window.0.should_exit().is_some());
+    let mut unchanged = HeadlessWindow::with_gallery();
+    press_with_control(&mut unchanged, KeyCode::KeyQ, "q");
+    assert!(unchanged.0.should_exit().is_some());
+}
+
+#[test]
+fn the_title_follows_the_designs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let small = write_square(folder.path(), "small.svg", 30);
+    let large = write_square(folder.path(), "large.svg", 80);
+    let mut window = HeadlessWindow::with_gallery();
+    let given = window.session().title();
+    window.send(Intent::ReplaceDesign(0, small));
+    window.send(Intent::ReplaceDesign(1, large));
+    window.wait();
+    assert_eq!(window.session().title(), "small to large");
+    assert_eq!(window.session().file_stem(), "small to large");
+    window.send(Intent::Undo);
+    window.send(Intent::Undo);
+    window.wait();
+    assert_eq!(window.session().title(), given);
+}
+
+#[test]
+fn messages_about_a_project_disappear_with_it() {
+    let mut window = HeadlessWindow::with_gallery();
+    let mut notices = window.0.world_mut().resource_mut::<Notices>();
+    notices.problem(NoticeTopic::Saving, "the project was not saved");
+    notices.note("an import note");
+    notices.confirm("Saved elsewhere");
+    window.send(Intent::OpenGallery(gallery_names()[1].clone()));
+    window.wait();
+    let notices = window.0.world().resource::<Notices>().list();
+    let texts: Vec<&str> = notices.iter().map(|notice| notice.text.as_str()).collect();
+    assert!(!texts.contains(&"the project was not saved") && !texts.contains(&"an import note"));
+    assert!(texts.contains(&"Saved elsewhere"), "{texts:?}");
+}
+
+#[test]
+fn recent_files_list_a_pair_and_the_project_made_from_it_once() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [a, b, c] = ["a.svg", "b.svg", "c.svg"].map(|name| write_square(folder.path(), name, 50));
+    let listed = |window: &HeadlessWindow| -> Vec<String> {
+        let recent = window.0.world().resource::<StoredRecentFiles>();
+        recent.entries().iter().map(|entry| entry.title()).collect()
+    };
+    let mut window = HeadlessWindow::new();
+    for files in [[&a, &b], [&b, &a], [&a, &c]] {
+        window.send(Intent::Open(files.map(Clone::clone).into()));
+        window.wait();
+    }
+    assert_eq!(listed(&window), ["a to c", "b to a"]);
+    window.send(Intent::OpenAlone(c));
+    window.wait();
+    assert_eq!(listed(&window).len(), 2, "a single design is no film");
+    window.send(Intent::Open(vec![a, b]));
+    window.wait();
+    window.send(Intent::SaveTo(folder.path().join("mine.morph")));
+    window.update();
+    assert_eq!(listed(&window), ["mine", "a to c"]);
 }

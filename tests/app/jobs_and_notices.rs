@@ -8,14 +8,15 @@ use std::time::Duration;
 
 use bevy::input::keyboard::{Key, KeyCode};
 use morphospace::app::testing::{
-    CaptureFolder, FilmExportOptions, FilmExporter, Intent, Preferences, Session, StageMeasures,
+    ExportKind, FilmExportOptions, FilmExporter, Intent, Preferences, Session, StageMeasures,
     UnsavedAnswer, UnsavedQuestion,
 };
 use morphospace::correspondence::PointPair;
 use morphospace::export::{Aspect, PictureLayout};
 use morphospace::geometry::DVec2;
-use morphospace::project::Project;
+use morphospace::project::{LoadedProject, Project};
 use morphospace::transition::{BuildQuality, TransitionMethod};
+use morphospace::work::progress::Silent;
 
 use crate::headless_window::HeadlessWindow;
 
@@ -116,8 +117,7 @@ fn a_problem_disappears_with_its_cause() {
 
 /// Exports a film to a folder and waits until the export ends.
 fn export_film(window: &mut HeadlessWindow, folder: PathBuf) {
-    window.0.insert_resource(CaptureFolder(folder));
-    window.send(Intent::ExportFilm);
+    window.send(Intent::Export(ExportKind::Film, folder.join("film")));
     while window.0.world().resource::<FilmExporter>().work().is_some() {
         std::thread::sleep(Duration::from_millis(1));
         window.update();
@@ -172,10 +172,8 @@ fn discarding_changes_does_not_stop_an_export_and_closing_asks_about_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path());
     edit(&mut window, |project| project.timing.duration_secs = 600.0);
-    window
-        .0
-        .insert_resource(CaptureFolder(folder.path().join("films")));
-    window.send(Intent::ExportFilm);
+    let film = folder.path().join("films").join("film");
+    window.send(Intent::Export(ExportKind::Film, film));
     let other = write_outline(folder.path(), "other.svg", SQUARE);
     window.send(Intent::Open(vec![other.clone(), other]));
     assert!(
@@ -236,6 +234,16 @@ fn a_method_that_fails_is_replaced_by_one_that_works() {
     };
     assert!(problem.contains("pin") && problem.contains(TransitionMethod::FIELD_BLEND.name()));
     assert!(!reopened.session().is_dirty(), "the project is unchanged");
+    let project = reopened.session().project().expect("a project");
+    let field = TransitionMethod::FIELD_BLEND;
+    let shown = (Some(field.warp()), Some(field.content()));
+    assert_eq!((project.warp, project.content), shown, "the panel names it");
+    // A project saved now renders in the same way elsewhere.
+    let saved = folder.path().join("saved.morph");
+    reopened.send(Intent::SaveTo(saved.clone()));
+    let loaded = LoadedProject::open(&saved).expect("a project");
+    let rendered = loaded.build(&Silent).expect("a film");
+    assert_eq!(rendered.method(), field);
     edit(&mut reopened, |project| {
         project.options.matching.pins.clear();
     });

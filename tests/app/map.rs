@@ -7,6 +7,8 @@ use bevy::input::keyboard::{Key, KeyCode};
 use bevy::math::Vec2;
 use morphospace::app::testing::{Intent, MapView, StageArea};
 use morphospace::geometry::DVec2;
+use morphospace::measure::MapMeasure;
+use morphospace::settings::Choice;
 use morphospace::space::MapLayout;
 use tempfile::TempDir;
 
@@ -303,4 +305,78 @@ fn designs_without_a_common_mesh_are_blended_as_fields_and_escape_closes_the_map
     let window = with_map(window);
     let made = map_view(&window).pictures().expect("a map");
     assert_eq!(made.space().designs().len(), 2);
+}
+
+#[test]
+fn escape_ends_drawing_before_it_closes_the_map() {
+    let (_folder, window) = with_rectangles(3, false);
+    let mut window = with_map(window);
+    let escape = |window: &mut HeadlessWindow| window.press(KeyCode::Escape, Key::Escape);
+    window.type_char(KeyCode::KeyE, "e");
+    assert!(map_view(&window).is_drawing_path);
+    escape(&mut window);
+    assert!(map_view(&window).is_shown && !map_view(&window).is_drawing_path);
+    // Recording a path ends in the same way, and leaves no path.
+    window.type_char(KeyCode::KeyW, "w");
+    window.press(KeyCode::ArrowRight, Key::ArrowRight);
+    escape(&mut window);
+    assert!(map_view(&window).is_shown && !map_view(&window).is_recording());
+    let path = window
+        .session()
+        .whole_project()
+        .map(|whole| whole.map.path.clone());
+    assert!(path.is_some_and(|path| path.places.is_empty()));
+    escape(&mut window);
+    assert!(!map_view(&window).is_shown);
+}
+
+#[test]
+fn a_hidden_map_does_no_work() {
+    let (_folder, window) = with_rectangles(3, false);
+    let mut window = with_map(window);
+    window.send(Intent::ShowMapMeasure(Some(MapMeasure::CHOICES[0])));
+    window.send(Intent::ToggleMap);
+    for _ in 0..2000 {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+        window.update();
+    }
+    assert!(!map_view(&window).is_busy());
+}
+
+#[test]
+fn the_map_keeps_the_colours_of_the_drawings() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, colour: &str, width: u32| {
+        let path = folder.path().join(name);
+        let svg = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='100' height='100'>\
+             <rect width='{width}' height='100' fill='{colour}'/></svg>"
+        );
+        std::fs::write(&path, svg).expect("a file");
+        path
+    };
+    let files = [("a.svg", "#c00000", 40), ("b.svg", "#00c000", 90)];
+    let files = files.map(|(name, colour, width)| file(name, colour, width));
+    let mut window = HeadlessWindow::new();
+    window.send(Intent::Open(files.into()));
+    window.wait();
+    let mut window = with_map(window);
+    let colour_at = |window: &mut HeadlessWindow, design: usize| {
+        let site = map_view(window).pictures().expect("a map").map().sites()[design];
+        window.send(Intent::MoveMarker(site));
+        window.update();
+        let blend = map_view(window)
+            .pictures()
+            .and_then(|pictures| pictures.blend());
+        let blend = blend.expect("a blend");
+        let middle = blend.get_pixel(blend.width() / 2, blend.height() / 2);
+        middle.0
+    };
+    assert_eq!(colour_at(&mut window, 0), [0xc0, 0, 0, 255]);
+    assert_eq!(colour_at(&mut window, 1), [0, 0xc0, 0, 255]);
+    let designs = map_view(&window)
+        .pictures()
+        .and_then(|pictures| pictures.thumbnails());
+    let designs = &designs.expect("thumbnails").designs;
+    assert!(designs.pixels().any(|pixel| pixel.0 == [0xc0, 0, 0, 255]));
 }

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use bevy::input::keyboard::{Key, KeyCode};
 use morphospace::app::testing::{
-    DialogPurpose, FileDialogRequest, Intent, NoticeKind, Notices, UnsavedAnswer,
+    DialogPurpose, ExportKind, FileDialogRequest, FilmExporter, Intent, NoticeKind, Notices,
+    StoredRecentFiles, UnsavedAnswer,
 };
 use morphospace::work::progress::Silent;
 
@@ -266,4 +267,88 @@ fn escape_cancels_the_dialog_and_enter_accepts_its_suggestion() {
     assert_eq!(open_dialog(&window), None);
     let is_saved = |text: &String| text.ends_with("first.morph");
     assert!(confirmations(&window).iter().any(is_saved));
+}
+
+/// Waits until the running export has ended.
+fn wait_for_export(window: &mut HeadlessWindow) {
+    while window.0.world().resource::<FilmExporter>().work().is_some() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+        window.update();
+    }
+    window.update();
+}
+
+#[test]
+fn an_export_asks_for_folder_and_name_and_remembers_the_folder() {
+    let [designs, other] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    let mut window = HeadlessWindow::with_gallery();
+    let mut project = window.session().project().cloned().expect("a project");
+    project.timing.duration_secs = 0.1;
+    window.send(Intent::ReplaceSettings(Box::new(project)));
+    window.send(Intent::SaveTo(designs.path().join("mine.morph")));
+    let dialog = |window: &HeadlessWindow| window.0.world().resource::<FileDialogRequest>().clone();
+    window.type_char(KeyCode::KeyG, "g");
+    window.update();
+    let film = |name: &str| DialogPurpose::Export(ExportKind::Film, name.to_owned());
+    assert_eq!(open_dialog(&window), Some(film("mine.gif")));
+    assert_eq!(
+        dialog(&window).folder(),
+        Some(designs.path()),
+        "next to the project"
+    );
+    choose(&mut window, &[]);
+    assert!(
+        window.0.world().resource::<FilmExporter>().work().is_none(),
+        "cancelled"
+    );
+    window.send(Intent::AskExport(ExportKind::Film));
+    // The extension is added, and decides the file type if there is one.
+    choose(&mut window, &[&other.path().join("first")]);
+    wait_for_export(&mut window);
+    assert_eq!(window.problems(), Vec::<String>::new());
+    assert!(other.path().join("first.gif").is_file());
+    window.send(Intent::AskExport(ExportKind::Film));
+    assert_eq!(
+        dialog(&window).folder(),
+        Some(other.path()),
+        "the last folder"
+    );
+    choose(&mut window, &[&other.path().join("second.apng")]);
+    wait_for_export(&mut window);
+    assert!(other.path().join("second.apng").is_file());
+    // A file that the user selects is replaced; an export without a selected file never replaces.
+    std::fs::write(other.path().join("first.gif"), "old").expect("written");
+    window.send(Intent::Export(ExportKind::Film, other.path().join("first")));
+    wait_for_export(&mut window);
+    assert_eq!(
+        std::fs::read(other.path().join("first.gif")).expect("a file"),
+        b"old"
+    );
+    assert!(other.path().join("first-2.gif").is_file());
+    window.send(Intent::Export(
+        ExportKind::Film,
+        other.path().join("first.gif"),
+    ));
+    wait_for_export(&mut window);
+    assert_ne!(
+        std::fs::read(other.path().join("first.gif")).expect("a file"),
+        b"old"
+    );
+}
+
+#[test]
+fn a_preset_stores_the_export_folder() {
+    let [first, second] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    let mut window = HeadlessWindow::with_gallery();
+    let set_folder = |window: &mut HeadlessWindow, folder: &Path| {
+        let mut recent = window.0.world_mut().resource_mut::<StoredRecentFiles>();
+        recent.set_export_folder(folder);
+    };
+    set_folder(&mut window, first.path());
+    window.send(Intent::SavePreset("talk".to_owned()));
+    set_folder(&mut window, second.path());
+    window.send(Intent::UsePreset("talk".to_owned()));
+    window.send(Intent::AskExport(ExportKind::Film));
+    let dialog: &FileDialogRequest = window.0.world().resource();
+    assert_eq!(dialog.folder(), Some(first.path()));
 }

@@ -133,3 +133,41 @@ fn opening_clears_the_undo_history_and_saving_does_not() {
     window.wait();
     assert!(!window.session().can_undo());
 }
+
+#[test]
+fn undo_brings_back_the_film_that_was_there_at_once() {
+    let mut window = HeadlessWindow::with_gallery();
+    let before = window.session().transition().cloned().expect("a film");
+    let mut project = window.session().project().cloned().expect("a project");
+    project.options.arap.symmetric = !project.options.arap.symmetric;
+    window.send(Intent::ReplaceSettings(Box::new(project)));
+    window.wait();
+    let changed = window.session().transition().cloned().expect("a film");
+    assert!(!changed.is_same(&before));
+    let shown = |window: &HeadlessWindow| window.session().transition().cloned().expect("a film");
+    window.send(Intent::Undo);
+    assert!(shown(&window).is_same(&before), "without a new build");
+    assert!(window.session().work().is_none());
+    window.send(Intent::Redo);
+    assert!(shown(&window).is_same(&changed));
+    assert!(window.session().work().is_none());
+}
+
+#[test]
+fn undo_during_a_build_ends_it() {
+    let mut window = HeadlessWindow::with_gallery();
+    let before = window.session().transition().cloned().expect("a film");
+    window.send(Intent::NextMethod);
+    window.wait();
+    let mut project = window.session().project().cloned().expect("a project");
+    project.options.bar_width *= 1.5;
+    window.send(Intent::Undo);
+    window.send(Intent::ReplaceSettings(Box::new(project)));
+    window.send(Intent::Undo);
+    assert!(
+        window.session().work().is_none(),
+        "nothing is left to build"
+    );
+    let shown = window.session().transition().expect("a film");
+    assert!(shown.is_same(&before));
+}

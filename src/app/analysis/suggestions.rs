@@ -21,9 +21,7 @@ use crate::app::jobs::job::BackgroundJob;
 use crate::app::session::state::Session;
 use crate::content::ContentKind;
 use crate::correspondence::{HoleRule, PartRule};
-use crate::measure::{
-    FilmRating, FilmReport, Finding, FindingKind, Remedy, Verdict, film_report,
-};
+use crate::measure::{FilmRating, FilmReport, Finding, FindingKind, Remedy, Verdict, film_report};
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::settings::Choice;
 use crate::transition::{BuildError, DesignFit, Transition, TransitionMethod};
@@ -71,18 +69,17 @@ fn apply_remedy(project: &mut Project, remedy: &Remedy) {
     }
 }
 
-/// Whether a remedy for `finding` helps, given the results of the check without and with it: the
+/// Whether a remedy for `finding` helps, given the findings without and with it: the
 /// defect becomes smaller, and no other kind of defect is new.
-fn removes(finding: &Finding, before: &Verdict, after: &Verdict) -> bool {
-    let of_kind = |verdict: &Verdict, kind: &FindingKind| -> Option<f64> {
-        let same = verdict.findings.iter().map(|found| &found.trouble);
+fn removes(finding: &Finding, before: &[Finding], after: &[Finding]) -> bool {
+    let of_kind = |findings: &[Finding], kind: &FindingKind| -> Option<f64> {
+        let same = findings.iter().map(|found| &found.trouble);
         let extents = same.filter(|found| found.is_same_kind(kind));
         extents.map(FindingKind::extent).reduce(f64::max)
     };
     let remaining = of_kind(after, &finding.trouble).unwrap_or(0.0);
     remaining < finding.trouble.extent()
         && after
-            .findings
             .iter()
             .all(|found| of_kind(before, &found.trouble).is_some())
 }
@@ -384,7 +381,7 @@ fn try_remedies(
             continue;
         };
         let measures = measure_film(&built, progress).map_err(BuildError::from)?;
-        if removes(finding, before, &measures.verdict) {
+        if removes(finding, &before.findings, &measures.verdict.findings) {
             // Sending fails once the search has been cancelled.
             sender.send(HelpfulChange::Remedy(remedy.clone())).ok();
         }
@@ -497,5 +494,36 @@ pub fn apply(
             }
             _ => {}
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::DVec2;
+    use crate::measure::FindingCause;
+
+    fn finding(trouble: FindingKind) -> Finding {
+        Finding {
+            trouble,
+            t: 0.5,
+            span: [0.5, 0.5],
+            place: DVec2::ZERO,
+            cause: FindingCause::Unclear,
+            remedy: Remedy::Lattices,
+        }
+    }
+
+    #[test]
+    fn a_remedy_helps_if_its_defect_shrinks_and_no_other_kind_appears() {
+        let share = |share: f64| finding(FindingKind::PlaneFolds { share });
+        let missed = || finding(FindingKind::Missed { count: 1, by: 0.1 });
+        let before = [share(0.2)];
+        let helps = |after: &[Finding]| removes(&before[0], &before, after);
+        assert!(helps(&[]) && helps(&[share(0.1)]));
+        assert!(!helps(&[share(0.2)]), "nothing changes");
+        assert!(!helps(&[missed()]), "the pins are missed instead");
+        let both = [share(0.2), missed()];
+        assert!(removes(&both[0], &both, &[missed()]), "it was there before");
     }
 }

@@ -10,7 +10,7 @@ use crate::app::input::gesture::TextSelected;
 use crate::app::input::intent::Intent;
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::output_files::ExportFolder;
-use crate::export::{PixelSize, rasterise, to_svg};
+use crate::export::{PixelSize, to_svg};
 
 /// Handles the intents to save or copy an image while the map is shown.
 pub fn capture_blend(
@@ -49,13 +49,19 @@ pub fn capture_blend(
         };
         let style = inputs.session.style();
         let background = (!inputs.preferences.capture_transparent).then_some(style.ground);
-        let drawing = pictures.drawing(size, &style, background);
         match intent {
-            Intent::CopySvg => clipboard.copy_text(to_svg(&drawing), &mut notices),
-            Intent::CopyImage => clipboard.copy_image(&rasterise(&drawing), &mut notices),
+            Intent::CopySvg => {
+                let drawing = pictures.drawing(size, &style, background);
+                clipboard.copy_text(to_svg(&drawing), &mut notices);
+            }
+            Intent::CopyImage => {
+                let image = pictures.image(size, &style, background);
+                clipboard.copy_image(&image, &mut notices);
+            }
             _ => {
                 let name = format!("{}-blend", inputs.session.file_stem());
-                captures.write(folder.path(), &name, rasterise(&drawing).into());
+                let image = pictures.image(size, &style, background);
+                captures.write(folder.path(), &name, image.into());
             }
         }
     }

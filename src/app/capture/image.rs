@@ -117,8 +117,7 @@ pub fn size_px(view: &StageView, scale_factor: f32, scale: ImageScale) -> UVec2 
 /// Returns an observer that saves the captured image of the window under this name.
 fn window_captured(
     name: String,
-) -> impl FnMut(On<ScreenshotCaptured>, ResMut<ImageCaptures>, ResMut<Notices>, ExportFolder)
-{
+) -> impl FnMut(On<ScreenshotCaptured>, ResMut<ImageCaptures>, ResMut<Notices>, ExportFolder) {
     move |captured, mut captures, mut notices, folder| match captured
         .image
         .clone()

@@ -205,7 +205,9 @@ fn change_designs(session: &mut Session, mark: Option<u64>, change: impl FnOnce(
     session.change_whole(mark, |project| {
         let sorted_paths = |project: &Project| {
             let designs = project.designs.iter();
-            designs.map(|entry| entry.path.clone()).collect::<BTreeSet<_>>()
+            designs
+                .map(|entry| entry.path.clone())
+                .collect::<BTreeSet<_>>()
         };
         let before = sorted_paths(project);
         change(project);

@@ -219,9 +219,7 @@ fn view() -> Vec<KeyTableRow> {
 }
 
 fn files() -> Vec<KeyTableRow> {
-    use Intent::{
-        AskExport, AskOpen, Close, CopyImage, CopySvg, New, Save, SaveAs, Screenshot,
-    };
+    use Intent::{AskExport, AskOpen, Close, CopyImage, CopySvg, New, Save, SaveAs, Screenshot};
     let letter = |c: char, intent: Intent| key(Letter(c), intent);
     let picture = |with_panels: bool| letter('s', Screenshot { with_panels });
     group(
@@ -240,7 +238,10 @@ fn files() -> Vec<KeyTableRow> {
                     letter('c', CopySvg).control().shift(),
                 ],
             ),
-            ("Export film", vec![letter('g', AskExport(ExportKind::Film))]),
+            (
+                "Export film",
+                vec![letter('g', AskExport(ExportKind::Film))],
+            ),
             (
                 "Export a comparison sheet of all methods",
                 vec![letter('c', AskExport(ExportKind::MethodSheet))],

@@ -11,7 +11,9 @@ use crate::app::map::contours::MapContours;
 use crate::app::map::thumbnails::{MapThumbnails, draw_thumbnails};
 use crate::colour::Rgb;
 use crate::design::DesignForm;
-use crate::export::{Drawing, PixelSize, PixelSizeError, PlaneView, rasterise, text_colour_on};
+use crate::export::{
+    Drawing, PixelSize, PixelSizeError, PlaneView, SpaceColours, rasterise, text_colour_on,
+};
 use crate::geometry::DVec2;
 use crate::measure::MapMeasure;
 use crate::project::SavedBlend;
@@ -33,9 +35,11 @@ pub struct MapPictures {
     frame: SpaceFrame,
     /// Thumbnails of blends and designs.
     thumbnails: Option<MapThumbnails>,
-    drawing: Option<BackgroundJob<MapThumbnails, PixelSizeError>>,
+    drawing: Option<BackgroundJob<DrawnMap, PixelSizeError>>,
     /// Colours with which the thumbnails were drawn or are being drawn.
     style: Option<TransitionStyle>,
+    /// The designs' own colours, if they have any.
+    colours: Option<Arc<SpaceColours>>,
     /// The blend under the marker.
     blend: Option<BlendPicture>,
     /// Contours of a measure over the map.
@@ -45,6 +49,9 @@ pub struct MapPictures {
     /// Whether some saved blends have no thumbnail yet.
     lacks_saved_blends: bool,
 }
+
+/// Thumbnails, and the designs' own colours if they have any.
+type DrawnMap = (MapThumbnails, Option<Arc<SpaceColours>>);
 
 /// The blend under the marker as drawn last.
 #[derive(Debug)]
@@ -64,6 +71,7 @@ impl MapPictures {
             thumbnails,
             drawing: None,
             style: None,
+            colours: None,
             blend: None,
             contours: MapContours::default(),
             saved_blends: Vec::new(),
@@ -99,6 +107,12 @@ impl MapPictures {
     #[must_use]
     pub fn contours(&self) -> &MapContours {
         &self.contours
+    }
+
+    /// Mean of a design's own colours; `None` if no design has any.
+    #[must_use]
+    pub fn own_colour(&self, design: usize) -> Option<Rgb> {
+        self.colours.as_ref()?.mean_of(design)
     }
 
     /// Image of the blend under the marker; `None` until it is drawn.
@@ -140,7 +154,7 @@ impl MapPictures {
                 }
                 self.map.weights(place.at, &mut weights);
                 self.frame.seek(&weights);
-                let picture = rasterise(&self.drawing(size, style, None));
+                let picture = self.image(size, style, None);
                 self.saved_blends.push((place.at, Arc::new(picture)));
             }
         }
@@ -161,11 +175,33 @@ impl MapPictures {
         style: &TransitionStyle,
         background: Option<Rgb>,
     ) -> Drawing {
-        let bounds = self.space.bounds();
-        let view = PlaneView::fit(bounds.padded(0.04 * bounds.diameter()), size);
+        let view = self.view(size);
         let mut drawing = Drawing::new(size, background);
         drawing.push_blend(&self.frame, style, &view);
         drawing
+    }
+
+    /// Image of the blend with the current [`Self::weights`], in the designs' own colours if they
+    /// have any, on the colour `background`; transparent if that is `None`.
+    #[must_use]
+    pub fn image(
+        &self,
+        size: PixelSize,
+        style: &TransitionStyle,
+        background: Option<Rgb>,
+    ) -> RgbaImage {
+        let Some(colours) = &self.colours else {
+            return rasterise(&self.drawing(size, style, background));
+        };
+        let mut drawing = Drawing::new(size, background);
+        drawing.push_painted_blend(&self.frame, colours, &self.view(size));
+        rasterise(&drawing)
+    }
+
+    /// View that shows every blend in an image of this size.
+    fn view(&self, size: PixelSize) -> PlaneView {
+        let bounds = self.space.bounds();
+        PlaneView::fit(bounds.padded(0.04 * bounds.diameter()), size)
     }
 
     /// Draws the blend at the marker unless the current image shows it; returns whether it drew.
@@ -177,7 +213,7 @@ impl MapPictures {
             return false;
         }
         self.frame.seek(&key.0);
-        let picture = Arc::new(rasterise(&self.drawing(size, &style, None)));
+        let picture = Arc::new(self.image(size, &style, None));
         self.blend = Some(BlendPicture { key, picture });
         true
     }
@@ -211,7 +247,16 @@ impl MapPictures {
     fn update_thumbnails(&mut self, style: TransitionStyle) -> bool {
         if let Some(thumbnails) = BackgroundJob::take_result(&mut self.drawing) {
             // If thumbnails fail, the map still shows the designs' places and the marker.
-            self.thumbnails = thumbnails.ok();
+            let thumbnails = thumbnails.ok();
+            if let Some((_, colours)) = &thumbnails
+                && colours.is_some()
+            {
+                self.colours.clone_from(colours);
+                // The blend and the saved blends are drawn again in their colours.
+                self.blend = None;
+                self.saved_blends.clear();
+            }
+            self.thumbnails = thumbnails.map(|(thumbnails, _)| thumbnails);
             return true;
         }
         if self.style == Some(style) {
@@ -221,7 +266,9 @@ impl MapPictures {
         self.style = Some(style);
         let (space, map) = (self.space.clone(), self.map.clone());
         self.drawing = Some(BackgroundJob::start("the map", move |_| {
-            draw_thumbnails(&space, &map, &style)
+            let colours = SpaceColours::new(&space, &style).map(Arc::new);
+            let thumbnails = draw_thumbnails(&space, &map, &style, colours.as_deref())?;
+            Ok((thumbnails, colours))
         }));
         false
     }

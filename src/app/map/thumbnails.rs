@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use image::RgbaImage;
 
-use crate::export::{Drawing, PixelSize, PixelSizeError, PlaneView, rasterise};
+use crate::export::{Drawing, PixelSize, PixelSizeError, PlaneView, SpaceColours, rasterise};
 use crate::geometry::{Bounds, DVec2};
 use crate::space::{DesignSpace, WeightMap};
 use crate::transition::TransitionStyle;
@@ -35,7 +35,8 @@ pub struct MapThumbnails {
     pub designs: Arc<RgbaImage>,
 }
 
-/// Draws the thumbnails of the blends and of the designs.
+/// Draws the thumbnails of the blends and of the designs, in the designs' own `colours` if they have
+/// any.
 ///
 /// # Errors
 /// None in practice: `SIDE_PX` is a valid image size.
@@ -43,6 +44,7 @@ pub fn draw_thumbnails(
     space: &DesignSpace,
     map: &WeightMap,
     style: &TransitionStyle,
+    colours: Option<&SpaceColours>,
 ) -> Result<MapThumbnails, PixelSizeError> {
     let size = PixelSize::new(SIDE_PX, SIDE_PX)?;
     let cell = 2.0 * MAP_HALF_SIDE / f64::from(CELLS);
@@ -58,7 +60,10 @@ pub fn draw_thumbnails(
             let middle = DVec2::new(place.x + MAP_HALF_SIDE, MAP_HALF_SIDE - place.y) * px;
             let bounds = square(space.bounds());
             let view = PlaneView::fit_cell(bounds, size, middle - 0.5 * side, side);
-            drawing.push_blend(&frame, style, &view);
+            match colours {
+                Some(colours) => drawing.push_painted_blend(&frame, colours, &view),
+                None => drawing.push_blend(&frame, style, &view),
+            }
         }
         Arc::new(rasterise(&drawing))
     };

@@ -287,7 +287,9 @@ impl LoadRequest {
             Self::Recovered(unsaved) => unsaved.load()?,
             Self::Designs(paths) => {
                 let project = Project::from_paths(paths.iter().map(|path| absolute(path)));
-                LoadedProject::load(project, Some(PathBuf::new()))?
+                let mut loaded = LoadedProject::load(project, Some(PathBuf::new()))?;
+                loaded.adopt_drawn_colours();
+                loaded
             }
             Self::Rebuild(rebuild) => return rebuild.carry_out(progress, &mut on_interim),
         };

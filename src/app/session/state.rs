@@ -18,6 +18,7 @@ use crate::app::session::save::SaveError;
 use crate::app::session::transition_problem::TransitionProblem;
 use crate::app::session::transition_work::TransitionWork;
 use crate::app::session::unsaved_project::UnsavedProject;
+use crate::colour::Rgb;
 use crate::content::ContentKind;
 use crate::design::{Design, DesignForm};
 use crate::geometry::Bounds;
@@ -309,6 +310,12 @@ impl Session {
             _ => design.is_painted(),
         };
         self.all_designs().iter().any(is_painted)
+    }
+
+    /// Colours in which other programs show the first and the last design, if no design names any.
+    #[must_use]
+    pub fn drawn_colours(&self) -> Option<[Rgb; 2]> {
+        self.open.as_ref()?.loaded.drawn_colours()
     }
 
     /// Whether the match editor applies: both designs are outlines, and the film is not a path on

@@ -97,6 +97,7 @@ pub(super) fn paint(
         outlines: ImportedOutlines {
             extent: regions.bounds(),
             regions,
+            drawn_colour: None,
             paint_layers: paint_layers(groups),
             notes,
         },

@@ -4,9 +4,9 @@
 use std::time::Duration;
 
 use super::Session;
+use crate::app::jobs::job::JobError;
 use crate::app::session::document::OpenDocument;
 use crate::app::session::load;
-use crate::app::jobs::job::JobError;
 use crate::app::session::load::{LoadError, LoadRequest};
 use crate::app::session::transition_work::TransitionWork;
 
@@ -129,7 +129,10 @@ impl Session {
     /// Requests the method that plays if the requested one could not be built, so that the panels
     /// and the saved project name the method that is seen.
     fn adopt_playing_method(&mut self) {
-        let is_adopted = self.open.as_mut().is_some_and(OpenDocument::adopt_playing_method);
+        let is_adopted = self
+            .open
+            .as_mut()
+            .is_some_and(OpenDocument::adopt_playing_method);
         // If only some segments could not be built, the others must be built again.
         if is_adopted && let Some(open) = &self.open {
             self.is_stale |= load::needs_build(&open.staged, &open.loaded.project);

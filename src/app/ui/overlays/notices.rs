@@ -176,7 +176,8 @@ mod tests {
         ];
         for dialog in dialogs {
             let place = NoticePlace::next_to_dialog(dialog, window);
-            let is_apart = place.room.bottom() <= dialog.top() || place.room.top() >= dialog.bottom();
+            let is_apart =
+                place.room.bottom() <= dialog.top() || place.room.top() >= dialog.bottom();
             assert!(place.max_height().is_none() || is_apart, "{dialog:?}");
         }
         let fills = NoticePlace::next_to_dialog(window, window);

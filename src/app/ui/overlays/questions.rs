@@ -16,7 +16,8 @@ use crate::project::Project;
 
 /// Draws the question that waits for an answer, if there is one; returns its rectangle.
 pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) -> Option<Rect> {
-    let question = if let (Some(words), Some(kind)) = (state.question.text(), state.question.kind()) {
+    let question = if let (Some(words), Some(kind)) = (state.question.text(), state.question.kind())
+    {
         ask_before_closing(ctx, kind, words, intents)
     } else if let Some((title, age)) = state.autosave.recoverable() {
         ask_recover(ctx, title, age, intents)
@@ -73,12 +74,7 @@ fn ask_before_closing(
 
 /// Asks whether to recover unsaved work after the program ended unexpectedly. `age` is the time
 /// since the work was stored.
-fn ask_recover(
-    ctx: &Context,
-    title: &str,
-    age: Option<Duration>,
-    intents: &mut Intents,
-) -> Rect {
+fn ask_recover(ctx: &Context, title: &str, age: Option<Duration>, intents: &mut Intents) -> Rect {
     dialog(ctx, "recover", 400.0, |ui| {
         ui.heading("Recover unsaved work?");
         let when = age.map_or_else(String::new, |age| format!(", {}", ago(age)));

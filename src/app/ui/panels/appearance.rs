@@ -6,14 +6,15 @@ use bevy_egui::egui::{Ui, vec2};
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
 use crate::app::ui::kit::widgets::{
-    drag_value, number, row, section, segment, setting_row, slider, toggle, with_tooltip,
+    drag_value, number, row, section, segment, segmented_row, setting_row, slider, toggle,
+    with_tooltip,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
 use crate::content::ContentKind;
 use crate::project::Project;
 use crate::stage::StageVisibility;
-use crate::transition::{PaintLayerOptions, PaintRule};
+use crate::transition::{PaintLayerOptions, PaintRule, TransitionStyle};
 use crate::warp::WarpKind;
 
 /// Draws the appearance section.
@@ -28,6 +29,9 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
                 paint_layers(ui, &mut draft.options.coats);
             }
         }
+        if let Some(drawn) = state.session.drawn_colours() {
+            colour_style(ui, drawn, &mut draft.style);
+        }
         let tip = "Fill colour at t = 0.";
         colour(ui, "Source", tip, &mut draft.style.source);
         let tip = "Fill colour at t = 1.";
@@ -38,6 +42,28 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
             bars(ui, draft);
         }
     });
+}
+
+/// Draws the choice between the colours in which the designs are drawn, such as the black of icons,
+/// and those of the window. With other colours, neither is marked.
+fn colour_style(ui: &mut Ui, drawn: [Rgb; 2], style: &mut TransitionStyle) {
+    let plain = TransitionStyle::default();
+    let mut colours = [style.source, style.target];
+    let styles = [
+        (
+            drawn,
+            "As drawn",
+            "The colours that other programs show, such as black.",
+        ),
+        (
+            [plain.source, plain.target],
+            "Blue to orange",
+            "Shows how far the film is by its colour.",
+        ),
+    ];
+    let tip = "Colours of drawings that name none.";
+    segmented_row(ui, "Style", tip, &mut colours, &styles);
+    [style.source, style.target] = colours;
 }
 
 /// Draws the options of paint layers: whether unmatched parts fade, and at which t the stacking

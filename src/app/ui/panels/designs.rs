@@ -15,8 +15,8 @@ use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::texture::texture;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, RADIUS, SMALL, ThemePalette};
 use crate::app::ui::kit::widgets::{
-    automatic_toggle, drag_value, from_right, hint, icon_button, number, row, secondary_text, section,
-    setting_row, slider, toggle,
+    automatic_toggle, drag_value, from_right, hint, icon_button, number, row, secondary_text,
+    section, setting_row, slider, toggle,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;

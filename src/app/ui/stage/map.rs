@@ -256,14 +256,16 @@ fn draw_marker(
     painter.circle_filled(at, 2.5, ink);
 }
 
-/// Returns the fill colour of the design with the index `design`.
+/// Returns the colour of the design with the index `design`: the mean of its own colours or, without
+/// any, its fill colour.
 fn colour_of(state: &UiState, pictures: &MapPictures, design: usize) -> Color32 {
     let mut weights = vec![0.0; pictures.weights().len()];
     weights[design] = 1.0;
-    let Rgb([r, g, b]) = state
-        .session
-        .style()
-        .fill_at(pictures.space().colour_fraction(&weights));
+    let fill = || {
+        let fraction = pictures.space().colour_fraction(&weights);
+        state.session.style().fill_at(fraction)
+    };
+    let Rgb([r, g, b]) = pictures.own_colour(design).unwrap_or_else(fill);
     Color32::from_rgb(r, g, b)
 }
 

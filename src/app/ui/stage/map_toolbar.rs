@@ -11,7 +11,7 @@ use crate::app::ui::kit::widgets::{icon_button, panel_frame, secondary_text, seg
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::measure::MapMeasure;
 use crate::settings::Choice;
-use crate::space::MapLayout;
+use crate::space::{MapLayout, SpaceNote};
 
 /// Width of the buttons that choose the layout of the map, in points.
 const LAYOUTS_WIDTH: f32 = 288.0;
@@ -102,7 +102,10 @@ fn status(state: &UiState) -> String {
         _ if state.map.is_busy() => "Computing …".to_owned(),
         Some(pictures) => {
             let space = pictures.space();
-            let note = space.notes().iter().map(ToString::to_string).next();
+            // The map shows the designs' paints, unlike the blends that are exported from it.
+            let notes = space.notes().iter();
+            let mut notes = notes.filter(|note| !matches!(note, SpaceNote::PaintIgnored));
+            let note = notes.next().map(ToString::to_string);
             let kind = match space.family() {
                 Some(family) => format!(
                     "Rigid parts, one mesh of {} vertices",
