@@ -179,6 +179,7 @@ impl Design {
             extent: Bounds::of(corners).unwrap_or(self.extent),
             has_page: self.has_page,
             picture: self.picture.as_ref().map(|picture| picture.transformed(by)),
+            drawn_colour: self.drawn_colour,
             paint_layers: self
                 .paint_layers
                 .iter()

@@ -2,7 +2,7 @@
 //! few keys. Also tests of presentations started from the command line.
 
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::testing::{Intent, Presentation, UnsavedQuestion};
+use morphospace::app::testing::{Intent, Presentation, UnsavedAnswer, UnsavedQuestion};
 use morphospace::transition::TransitionStop;
 
 use crate::headless_window::HeadlessWindow;
@@ -135,4 +135,23 @@ fn a_presentation_of_a_missing_file_ends_with_the_reason() {
     assert!(!presentation(&window).is_active() && window.preferences().panels);
     assert_eq!(window.problems().len(), 1);
     assert!(window.0.should_exit().is_none());
+}
+
+#[test]
+fn a_talk_that_closes_the_window_restores_the_panels_if_closing_is_cancelled() {
+    let mut window = HeadlessWindow::with_gallery();
+    window.send(Intent::CyclePlayMode);
+    assert!(window.session().is_dirty());
+    for end in [Intent::Escape, Intent::Close] {
+        window.send(Intent::Present { is_all: true });
+        assert!(!window.preferences().panels);
+        window.send(end);
+        window.update();
+        window.send(Intent::AnswerUnsaved(UnsavedAnswer::Cancel));
+        (0..3).for_each(|_| window.update());
+        assert!(window.preferences().panels);
+        let question = window.0.world().resource::<UnsavedQuestion>();
+        assert_eq!(question.text(), None, "it asks once");
+        assert!(window.0.should_exit().is_none());
+    }
 }

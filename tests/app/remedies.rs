@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use morphospace::app::testing::{Intent, StageMeasures, Suggestions};
 use morphospace::measure::{Finding, Remedy};
+use morphospace::warp::homotopy::Homotopy;
 
 use crate::headless_window::HeadlessWindow;
 
@@ -38,7 +39,7 @@ fn with_folds(folder: &Path) -> HeadlessWindow {
     window.send(Intent::Open(vec![source, target]));
     window.wait();
     let mut project = window.session().project().cloned().expect("a project");
-    project.options.arap.homotopy = morphospace::warp::Homotopy::Linear;
+    project.options.arap.homotopy = Homotopy::Linear;
     window.send(Intent::ReplaceSettings(Box::new(project)));
     window.wait();
     window

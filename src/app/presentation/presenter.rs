@@ -128,19 +128,18 @@ pub fn apply(
                 preferences.film_options = false;
                 commands.write_message(Intent::FitView);
                 views.editor.is_open = false;
-                (views.comparison.is_shown, views.map.is_shown) = (false, false);
+                views.comparison.is_shown = false;
+                views.map.hide();
             }
             (Intent::Escape | Intent::Present { .. } | Intent::Close, Some(talk)) => {
-                if talk.is_all {
+                if talk.is_all && *intent != Intent::Close {
                     commands.write_message(Intent::Close);
-                } else {
-                    // The panels are restored even after `Intent::Close`, because the user may
-                    // cancel the question that closing raises. The window then stays open.
-                    *preferences = talk.before.0;
-                    if let (Ok((mut window, _)), Some(mode)) = (windows.single_mut(), talk.before.1)
-                    {
-                        window.mode = mode;
-                    }
+                }
+                // The panels are restored even if the window is to close, because the user may
+                // cancel the question that closing raises. The window then stays open.
+                *preferences = talk.before.0;
+                if let (Ok((mut window, _)), Some(mode)) = (windows.single_mut(), talk.before.1) {
+                    window.mode = mode;
                 }
                 if let Ok((_, mut cursor)) = windows.single_mut() {
                     cursor.visible = true;

@@ -231,7 +231,7 @@ const READING_SIDE: f32 = 64.0;
 /// Draws the picture and the name of a silhouette; returns whether it was clicked.
 fn reading_button(
     ui: &mut Ui,
-    salt: impl std::hash::Hash,
+    salt: (&str, usize, &str),
     choice: &ReadingChoice,
     is_used: bool,
 ) -> bool {
