@@ -86,6 +86,7 @@ pub mod testing {
     pub use super::logic::LogicPlugin;
     pub use super::map::map_view::{MapBuildError, MapView};
     pub use super::notices::{Notice, NoticeKind, NoticeTopic, Notices};
+    pub use super::output_files::CaptureFolder;
     pub use super::persistence::autosave::Autosave;
     pub use super::persistence::recent_files::StoredRecentFiles;
     pub use super::playback::player::Playback;

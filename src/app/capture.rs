@@ -3,6 +3,7 @@
 pub mod blend_image;
 pub mod clipboard;
 pub mod estimate;
+pub mod export_folder;
 pub mod film_exporter;
 pub mod film_framing;
 pub mod film_request;

@@ -182,7 +182,12 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
         file_watcher::follow,
         onion_skins::follow,
         // These systems run after every system that changes the project or marks it as saved.
-        (autosave::follow, recent_files::follow).chain(),
+        (
+            autosave::follow,
+            recent_files::follow,
+            recent_files::follow_exports,
+        )
+            .chain(),
         notices::apply,
     )
         .chain()

@@ -6,39 +6,51 @@ use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use bevy::ecs::system::SystemParam;
-use bevy::prelude::{Res, Resource};
+use bevy::prelude::Resource;
 
-use crate::app::persistence::recent_files::StoredRecentFiles;
-use crate::app::session::state::Session;
 use crate::io::atomic_file::AtomicFile;
 use crate::io::file_name::safe_file_name;
 
-/// Folder for exported images and films, as given on the command line.
+/// Folder for exported images and films, as the user chose it.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
-pub struct CaptureFolder(pub Option<PathBuf>);
-
-/// The folder for exported images and films.
-#[derive(SystemParam)]
-pub struct ExportFolder<'w> {
-    requested: Res<'w, CaptureFolder>,
-    recent: Res<'w, StoredRecentFiles>,
-    session: Res<'w, Session>,
+pub struct CaptureFolder {
+    /// Folder given on the command line.
+    requested: Option<PathBuf>,
+    /// Folder that the user chose last for an export.
+    last: Option<PathBuf>,
 }
 
-impl ExportFolder<'_> {
+impl CaptureFolder {
+    /// Folder of the command line, and the one that was chosen last when the program ran before.
+    #[must_use]
+    pub fn new(requested: Option<PathBuf>, last: Option<PathBuf>) -> Self {
+        Self { requested, last }
+    }
+
+    /// Folder that the user chose last; `None` before the first export, or if it no longer exists.
+    #[must_use]
+    pub fn last(&self) -> Option<&Path> {
+        self.last.as_deref().filter(|folder| folder.is_dir())
+    }
+
+    /// Remembers the folder that the user chose for an export.
+    pub fn choose(&mut self, folder: &Path) {
+        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        self.last = Some(folder);
+    }
+
     /// The folder that the user chose last for an export, or else the one given on the command
     /// line, or that of the project, or the folder `Morphospace` in the user's pictures folder,
     /// home folder or current folder, whichever is known first.
     #[must_use]
-    pub fn path(&self) -> PathBuf {
+    pub fn path(&self, of_project: Option<PathBuf>) -> PathBuf {
         let pictures = || {
             let folder = dirs::picture_dir().or_else(dirs::home_dir);
             folder.unwrap_or_default().join("Morphospace")
         };
-        let last = self.recent.export_folder().map(Path::to_owned);
-        last.or_else(|| self.requested.0.clone())
-            .or_else(|| self.session.folder())
+        let last = self.last().map(Path::to_owned);
+        last.or_else(|| self.requested.clone())
+            .or(of_project)
             .unwrap_or_else(pictures)
     }
 }

@@ -1,7 +1,7 @@
 //! Creates the application window and its cameras, and adds the systems that need a window to
 //! [`LogicPlugin`].
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use bevy::app::{HierarchyPropagatePlugin, PropagateSet, TerminalCtrlCHandlerPlugin};
 use bevy::camera::visibility::{RenderLayers, VisibilitySystems};
@@ -74,6 +74,8 @@ fn program(options: AppOptions) -> App {
     } = options;
     limit_arenas();
     let autosave = autosave();
+    let recent = StoredRecentFiles::of_file(RecentFiles::default_path());
+    let last_export = recent.export_folder().map(Path::to_owned);
     let mut app = App::new();
     // Bevy's own Ctrl-C handler does not wake an idle event loop; `handle_termination` does.
     let plugins = DefaultPlugins
@@ -82,12 +84,12 @@ fn program(options: AppOptions) -> App {
     app.add_plugins(plugins)
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(DropSupport(!window_system::is_wayland()))
-        .insert_resource(CaptureFolder(captures))
+        .insert_resource(CaptureFolder::new(captures, last_export))
         .insert_resource(StageRecording::with_memory_limit(film_memory))
         .insert_resource(autosave.scratch_folder())
         .insert_resource(autosave)
         .insert_resource(StoredPresets::of_file(FilmPresets::default_path()))
-        .insert_resource(StoredRecentFiles::of_file(RecentFiles::default_path()))
+        .insert_resource(recent)
         .insert_resource(GalleryStripCache::in_user_cache())
         .add_systems(Startup, move |mut intents: MessageWriter<Intent>| {
             intents.write(first_intent(&files));

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use bevy::input::keyboard::{Key, KeyCode};
 use morphospace::app::testing::{
-    DialogPurpose, ExportKind, FileDialogRequest, FilmExporter, Intent, NoticeKind, Notices,
-    StoredRecentFiles, UnsavedAnswer,
+    CaptureFolder, DialogPurpose, ExportKind, FileDialogRequest, FilmExporter, Intent, NoticeKind,
+    Notices, UnsavedAnswer,
 };
 use morphospace::work::progress::Silent;
 
@@ -341,8 +341,8 @@ fn a_preset_stores_the_export_folder() {
     let [first, second] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
     let mut window = HeadlessWindow::with_gallery();
     let set_folder = |window: &mut HeadlessWindow, folder: &Path| {
-        let mut recent = window.0.world_mut().resource_mut::<StoredRecentFiles>();
-        recent.set_export_folder(folder);
+        let mut chosen = window.0.world_mut().resource_mut::<CaptureFolder>();
+        chosen.choose(folder);
     };
     set_folder(&mut window, first.path());
     window.send(Intent::SavePreset("talk".to_owned()));

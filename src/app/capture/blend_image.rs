@@ -4,12 +4,12 @@
 use bevy::prelude::{MessageReader, NonSendMut, Res, ResMut};
 
 use crate::app::capture::clipboard::SystemClipboard;
+use crate::app::capture::export_folder::ExportFolder;
 use crate::app::capture::image::{ImageCaptures, size_px};
 use crate::app::capture::image_inputs::StageImageInputs;
 use crate::app::input::gesture::TextSelected;
 use crate::app::input::intent::Intent;
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::output_files::ExportFolder;
 use crate::export::{PixelSize, to_svg};
 
 /// Handles the intents to save or copy an image while the map is shown.

@@ -13,13 +13,14 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use image::{DynamicImage, ImageError, ImageFormat};
 
 use crate::app::capture::clipboard::SystemClipboard;
+use crate::app::capture::export_folder::ExportFolder;
 use crate::app::capture::image_inputs::StageImageInputs;
 use crate::app::input::gesture::TextSelected;
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::ImageScale;
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::output_files::{CreateFileError, ExportFolder, create_new, keep_if_written};
+use crate::app::output_files::{CreateFileError, create_new, keep_if_written};
 use crate::stage::{CaptureStage, StageCaptured, StageView};
 
 /// Longer side of a 4K image, in pixels.

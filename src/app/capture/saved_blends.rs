@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
+use crate::app::capture::export_folder::ExportFolder;
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::map::map_view::MapView;
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::output_files::{CreateFileError, ExportFolder, create_new_folder};
+use crate::app::output_files::{CreateFileError, create_new_folder};
 use crate::app::session::state::Session;
 use crate::export::{Catalogue, CatalogueOrder, ExportError};
 

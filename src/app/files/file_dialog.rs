@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 
 use bevy::prelude::{Commands, MessageReader, Res, ResMut, Resource};
 
+use crate::app::capture::export_folder::ExportFolder;
 use crate::app::capture::film_exporter::FilmExporter;
 use crate::app::input::intent::{ExportKind, Intent};
 use crate::app::input::preferences::{FilmFileFormat, Preferences};
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::output_files::{ExportFolder, free_name};
-use crate::app::persistence::recent_files::StoredRecentFiles;
+use crate::app::output_files::{CaptureFolder, free_name};
 use crate::app::session::state::Session;
 use crate::app::unsaved_question::UnsavedQuestion;
 use crate::design::{Format, extensions};
@@ -201,7 +201,7 @@ pub fn apply_choice(
     mut dialog: ResMut<FileDialogRequest>,
     mut question: ResMut<UnsavedQuestion>,
     mut notices: ResMut<Notices>,
-    mut recent: ResMut<StoredRecentFiles>,
+    mut capture_folder: ResMut<CaptureFolder>,
     mut commands: Commands,
 ) {
     for intent in intents.read() {
@@ -212,7 +212,7 @@ pub fn apply_choice(
         notices.resolve(NoticeTopic::FileName);
         let is_export = matches!(purpose, Some(DialogPurpose::Export(..)));
         match first.and_then(|path| parent(path)) {
-            Some(folder) if is_export => recent.set_export_folder(&folder),
+            Some(folder) if is_export => capture_folder.choose(&folder),
             Some(folder) => dialog.last_folder = Some(folder),
             None => {}
         }

@@ -8,7 +8,7 @@ use bevy::prelude::{MessageReader, Res, ResMut, Resource, warn};
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::{FilmFileFormat, Preferences};
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::persistence::recent_files::StoredRecentFiles;
+use crate::app::output_files::CaptureFolder;
 use crate::app::session::state::Session;
 use crate::content::ContentKind;
 use crate::export::{FilmPreset, FilmPresets};
@@ -110,7 +110,7 @@ pub fn apply(
     mut intents: MessageReader<Intent>,
     mut stored: ResMut<StoredPresets>,
     mut preferences: ResMut<Preferences>,
-    mut recent: ResMut<StoredRecentFiles>,
+    mut capture_folder: ResMut<CaptureFolder>,
     session: Res<Session>,
     mut notices: ResMut<Notices>,
 ) {
@@ -125,14 +125,14 @@ pub fn apply(
                         .map_or(FilmFileFormat::Pngs, FilmFileFormat::Film);
                     preferences.record_format = Some(file);
                     if let Some(folder) = &preset.folder {
-                        recent.set_export_folder(folder);
+                        capture_folder.choose(folder);
                     }
                 }
                 continue;
             }
             Intent::SavePreset(name) => {
                 let content = session.project().and_then(|project| project.content);
-                let now = preset(&preferences, content, recent.export_folder());
+                let now = preset(&preferences, content, capture_folder.last());
                 let insert = |all: &mut FilmPresets| {
                     all.0.insert(name.clone(), now.clone());
                 };

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use bevy::prelude::{DetectChanges, Local, Res, ResMut, Resource, warn};
 use serde::{Deserialize, Serialize};
 
+use crate::app::output_files::CaptureFolder;
 use crate::app::session::state::Session;
 use crate::design::DesignSource;
 use crate::io::atomic_file::AtomicFile;
@@ -143,20 +144,15 @@ impl StoredRecentFiles {
         folders
     }
 
-    /// Folder of the last export; `None` before the first one, or if it no longer exists.
+    /// Folder of the last export; `None` before the first one.
     #[must_use]
     pub fn export_folder(&self) -> Option<&Path> {
-        let folder = self.recent.export_folder.as_deref();
-        folder.filter(|folder| folder.is_dir())
+        self.recent.export_folder.as_deref()
     }
 
-    /// Remembers the folder that the user chose for an export.
-    pub fn set_export_folder(&mut self, folder: &Path) {
-        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-        let change = |recent: &mut RecentFiles| recent.export_folder = Some(folder.clone());
-        if let Err(error) = self.change(change) {
-            warn_unwritten(&error);
-        }
+    /// Stores the folder of the last export.
+    fn set_export_folder(&mut self, folder: &Path) -> io::Result<()> {
+        self.change(|recent| recent.export_folder = Some(folder.to_owned()))
     }
 
     /// Changes the list in memory and in its file.
@@ -176,11 +172,6 @@ impl StoredRecentFiles {
         let replaced = self.open.replace(opened.clone());
         self.change(|recent| recent.add(opened.clone(), replaced.as_ref()))
     }
-}
-
-/// Logs that the list could not be written. No notice is shown, because the user loses nothing.
-fn warn_unwritten(error: &io::Error) {
-    warn!("cannot write the list of recent files: {error}");
 }
 
 /// Adds the open project to the list. Each project has one entry: designs that are replaced and
@@ -211,7 +202,20 @@ pub fn follow(
         return;
     }
     if let Err(error) = recent.add(entry) {
-        warn_unwritten(&error);
+        // The error is only logged, because the user loses nothing.
+        warn!("cannot write the list of recent files: {error}");
+    }
+}
+
+/// Stores the folder that the user chose for an export.
+pub fn follow_exports(folder: Res<CaptureFolder>, mut recent: ResMut<StoredRecentFiles>) {
+    let Some(last) = folder.last().filter(|_| folder.is_changed()) else {
+        return;
+    };
+    if recent.export_folder() != Some(last)
+        && let Err(error) = recent.set_export_folder(last)
+    {
+        warn!("cannot write the folder of the last export: {error}");
     }
 }
 

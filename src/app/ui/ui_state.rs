@@ -27,6 +27,7 @@ use crate::app::input::key_map::KeyMap;
 use crate::app::input::preferences::Preferences;
 use crate::app::map::map_view::MapView;
 use crate::app::notices::Notices;
+use crate::app::output_files::CaptureFolder;
 use crate::app::persistence::autosave::Autosave;
 use crate::app::persistence::film_presets::StoredPresets;
 use crate::app::persistence::recent_files::StoredRecentFiles;
@@ -74,6 +75,7 @@ pub struct UiState<'w> {
     pub fonts: Res<'w, TextFonts>,
     pub readings: Res<'w, PictureReadings>,
     pub drop_support: Res<'w, DropSupport>,
+    pub capture_folder: Res<'w, CaptureFolder>,
     pub keys: Res<'w, KeyMap>,
     pub frame_times: Res<'w, FrameTimes>,
     pub frame_intervals: Res<'w, FrameIntervals>,

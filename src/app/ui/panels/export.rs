@@ -195,7 +195,7 @@ fn my_presets(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let in_use = state.presets.in_use(
         &state.preferences,
         content(state),
-        state.recent.export_folder(),
+        state.capture_folder.last(),
     );
     let tip = "Your saved export settings, also for --preset on the command line.";
     row(ui, "My presets", tip, |ui| {
