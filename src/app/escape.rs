@@ -84,6 +84,8 @@ pub fn handle_escape(
     for _ in 0..escape_count {
         if preferences.help {
             preferences.help = false;
+        } else if views.map.bypass_change_detection().end_path_tools() {
+            views.map.set_changed();
         } else if preferences.panels && !views.is_any_open() && invitation.is_shown() {
             invitation.close();
         } else if preferences.panels && work.session.visible_work().is_some() {
@@ -98,8 +100,8 @@ pub fn handle_escape(
             views.editor.set_changed();
         } else if preferences.film_options {
             preferences.film_options = false;
-        } else if views.map.bypass_change_detection().handle_escape() {
-            views.map.set_changed();
+        } else if views.map.is_shown {
+            views.map.hide();
         } else if views.comparison.is_shown {
             views.comparison.is_shown = false;
         } else if !preferences.panels {

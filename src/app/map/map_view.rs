@@ -98,16 +98,11 @@ impl MapView {
         self.recorded.is_some()
     }
 
-    /// Handles Esc: ends drawing a path, or stops recording one without keeping it, or hides the
-    /// map; returns `false` if none of these applies.
-    pub fn handle_escape(&mut self) -> bool {
-        if !self.is_shown {
-            return false;
-        }
-        if !std::mem::take(&mut self.is_drawing_path) && self.recorded.take().is_none() {
-            self.hide();
-        }
-        true
+    /// Ends drawing a path, and stops recording one without keeping it; returns `false` if neither
+    /// was going on.
+    pub fn end_path_tools(&mut self) -> bool {
+        let was_drawing = std::mem::take(&mut self.is_drawing_path);
+        self.recorded.take().is_some() || was_drawing
     }
 
     /// Hides the map, and ends drawing and recording.
