@@ -5,6 +5,7 @@
 use std::path::Path;
 
 use crate::headless_window::{HeadlessWindow, gallery_names};
+use bevy::input::ButtonState;
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{Entity, With};
 use bevy::window::{FileDragAndDrop, WindowCloseRequested};
@@ -411,8 +412,11 @@ fn ctrl_q_quits_and_asks_about_unsaved_changes() {
     window.update();
     assert!(window.0.should_exit().is_some());
     let mut unchanged = HeadlessWindow::with_gallery();
-    press_with_control(&mut unchanged, KeyCode::KeyQ, "q");
-    assert!(unchanged.0.should_exit().is_some());
+    unchanged.hold(KeyCode::ControlLeft, Key::Control, |window| {
+        let q = Key::Character("q".into());
+        window.key(ButtonState::Pressed, KeyCode::KeyQ, q, false);
+        assert!(window.0.should_exit().is_some());
+    });
 }
 
 #[test]

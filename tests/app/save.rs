@@ -286,6 +286,9 @@ fn an_export_asks_for_folder_and_name_and_remembers_the_folder() {
     project.timing.duration_secs = 0.1;
     window.send(Intent::ReplaceSettings(Box::new(project)));
     window.send(Intent::SaveTo(designs.path().join("mine.morph")));
+    let mut preferences = *window.preferences();
+    preferences.film.layout.lines = 32;
+    window.send(Intent::SetPreferences(preferences));
     let dialog = |window: &HeadlessWindow| window.0.world().resource::<FileDialogRequest>().clone();
     window.type_char(KeyCode::KeyG, "g");
     window.update();
