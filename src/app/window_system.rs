@@ -8,7 +8,7 @@ const WAYLAND: [&str; 2] = ["WAYLAND_DISPLAY", "WAYLAND_SOCKET"];
 #[must_use]
 pub fn is_wayland() -> bool {
     let is_set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    cfg!(target_os = "linux") && WAYLAND.iter().any(|name| is_set(&name))
+    cfg!(target_os = "linux") && WAYLAND.iter().any(is_set)
 }
 
 /// Restarts the program without access to Wayland if an X server can be reached as well. Returns if

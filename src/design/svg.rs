@@ -95,14 +95,9 @@ pub(super) fn read(
         None => document.root_element(),
     };
     let font_lookup = FontLookup::default();
-    let SvgTree {
-        tree,
-        plain,
-        mut lost,
-        has_short_text,
-        embedded,
-    } = tree_of(&document, &font_lookup, 0)?;
-    lost.extend(embedded);
+    let read_tree = tree_of(&document, &font_lookup, 0)?;
+    let (tree, plain, mut lost) = (read_tree.tree, read_tree.plain, read_tree.lost);
+    lost.extend(read_tree.embedded);
     let size = painter::page_of(&tree);
     let read_options = SvgReadOptions {
         tolerance: options.tolerance.max(MIN_TOLERANCE) * size.max_element(),
@@ -111,44 +106,35 @@ pub(super) fn read(
         non_scaling: &plain.non_scaling,
         document: &document,
     };
-    let mut painted = painter::paint_tree(&tree, &read_options)?;
-    own_outlines::attach_outlines(&mut painted.shapes, read_options.tolerance);
-    if read_options.element.is_none() {
-        page_edge::cut_at_page(&mut painted, size);
-        if let Some(paint) = plain.background.as_deref().and_then(paint_of_plain) {
-            let background = SvgShape::rectangle(
-                Bounds {
-                    min: DVec2::ZERO,
-                    max: size,
-                },
-                paint,
-            );
-            painted.shapes.insert(0, background);
-        }
-    }
-    let regions = silhouette::silhouette(&painted, size, options.strokes)?;
-    let report = SvgReport {
-        strokes: options.strokes,
-        absent: has_short_text.then(|| font_lookup.into_absent()),
-        lost,
-    };
-    let notes = report.notes(&mut painted, top);
     let page = Bounds {
         min: DVec2::ZERO,
         max: size,
     };
+    let mut painted = painter::paint_tree(&tree, &read_options)?;
+    own_outlines::attach_outlines(&mut painted.shapes, read_options.tolerance);
+    if read_options.element.is_none() {
+        page_edge::cut_at_page(&mut painted, size);
+        let background = plain.background.as_deref().and_then(paint_of_plain);
+        let background = background.map(|paint| SvgShape::rectangle(page, paint));
+        painted.shapes.splice(..0, background);
+    }
+    let regions = silhouette::silhouette(&painted, size, options.strokes)?;
+    let report = SvgReport {
+        strokes: options.strokes,
+        absent: read_tree.has_short_text.then(|| font_lookup.into_absent()),
+        lost,
+    };
+    let notes = report.notes(&mut painted, top);
     let names_a_colour = has_colours::names_a_colour(&document);
     let drawn = painted.shapes.first().map(|shape| shape.paint.colour);
     let layers = match names_a_colour {
         true => paint_layers::paint_layers(painted.shapes, size),
         false => paint_layers::uncoloured_layers(painted.shapes, size),
     };
+    let extent = read_options.element.map_or(page, |_| regions.bounds());
     Ok(ImportedOutlines {
         notes,
-        extent: match read_options.element {
-            Some(_) => regions.bounds(),
-            None => page,
-        },
+        extent,
         regions,
         paint_layers: layers,
         drawn_colour: drawn.filter(|_| !names_a_colour),

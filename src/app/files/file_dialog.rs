@@ -238,25 +238,31 @@ pub fn apply_choice(
             (Some(DialogPurpose::Export(kind, _)), Some(path)) => {
                 commands.write_message(Intent::Export(kind, path.clone()));
             }
-            (Some(DialogPurpose::Save(_)), Some(path)) => match with_extension(path) {
-                // The dialog has checked only the name without the extension, so the user has not
-                // confirmed overwriting this file.
-                full_path if full_path != *path && full_path.exists() => {
-                    let name = full_path.file_name().unwrap_or_default().to_string_lossy();
-                    notices.problem(
-                        NoticeTopic::FileName,
-                        format!(
-                            "{} already exists. Select it to replace it, or choose another name",
-                            full_path.display()
-                        ),
-                    );
-                    dialog.purpose = Some(DialogPurpose::Save(name.into_owned()));
-                }
-                full_path => {
+            (Some(DialogPurpose::Save(_)), Some(path)) => match confirmed_path(path) {
+                Ok(full_path) => {
                     commands.write_message(Intent::SaveTo(full_path));
+                }
+                Err(existing) => {
+                    let name = existing.file_name().unwrap_or_default().to_string_lossy();
+                    let text = format!(
+                        "{} already exists. Select it to replace it, or choose another name",
+                        existing.display()
+                    );
+                    notices.problem(NoticeTopic::FileName, text);
+                    dialog.purpose = Some(DialogPurpose::Save(name.into_owned()));
                 }
             },
         }
+    }
+}
+
+/// Returns the path under which a project is saved, with its extension; as an error if the user has
+/// not confirmed that a file there is replaced. The dialog checks only the name without extension.
+fn confirmed_path(path: &Path) -> Result<PathBuf, PathBuf> {
+    let full_path = with_extension(path);
+    match full_path != *path && full_path.exists() {
+        true => Err(full_path),
+        false => Ok(full_path),
     }
 }
 

@@ -59,25 +59,9 @@ pub fn open(
                 LoadRequest::Gallery(name.clone())
             }
             Intent::Welcome => LoadRequest::Gallery(START_PROJECT.to_owned()),
-            Intent::Open(paths) => match paths.as_slice() {
-                [project] if Project::has_document_extension(project) => {
-                    LoadRequest::File(project.clone())
-                }
-                // A film needs two designs.
-                [design] => {
-                    drop.ask(design.clone());
-                    continue;
-                }
-                [] => continue,
-                // A project cannot be combined with other files.
-                _ if paths
-                    .iter()
-                    .any(|path| Project::has_document_extension(path)) =>
-                {
-                    notices.problem(NoticeTopic::Opening, too_many_files(paths.len()));
-                    continue;
-                }
-                designs => LoadRequest::Designs(designs.to_vec()),
+            Intent::Open(paths) => match request_to_open(paths, &mut drop, &mut notices) {
+                Some(request) => request,
+                None => continue,
             },
             // A single design is paired with itself until another one is added.
             Intent::OpenAlone(design) => {
@@ -97,6 +81,33 @@ pub fn open(
                 _ => None,
             };
             session.open(request);
+        }
+    }
+}
+
+/// Returns the request for files that are opened together. A film needs two designs, so a single one
+/// asks for the second; a project cannot be combined with other files.
+fn request_to_open(
+    paths: &[PathBuf],
+    drop: &mut DroppedDesign,
+    notices: &mut Notices,
+) -> Option<LoadRequest> {
+    match paths {
+        [] => None,
+        [project] if Project::has_document_extension(project) => {
+            Some(LoadRequest::File(project.clone()))
+        }
+        [design] => {
+            drop.ask(design.clone());
+            None
+        }
+        designs => {
+            let mut all = designs.iter();
+            if all.any(|path| Project::has_document_extension(path)) {
+                notices.problem(NoticeTopic::Opening, too_many_files(paths.len()));
+                return None;
+            }
+            Some(LoadRequest::Designs(designs.to_vec()))
         }
     }
 }
@@ -159,21 +170,15 @@ pub fn edit(
             Intent::CyclePlayMode => {
                 session.change(mark, |project| cycle_play_mode(&mut project.timing.play));
             }
-            Intent::ReplaceDesign(index, path) => {
-                change_designs(&mut session, mark, |project| {
-                    replace_design(project, *index, path);
-                });
-            }
-            Intent::InsertDesigns(at, paths) => {
-                change_designs(&mut session, mark, |project| {
-                    insert_designs(project, *at, paths);
-                });
-            }
-            Intent::ReorderDesigns(designs) => {
-                change_designs(&mut session, mark, |project| {
-                    project.set_designs(designs.clone());
-                });
-            }
+            Intent::ReplaceDesign(index, path) => change_designs(&mut session, mark, |project| {
+                replace_design(project, *index, path);
+            }),
+            Intent::InsertDesigns(at, paths) => change_designs(&mut session, mark, |project| {
+                insert_designs(project, *at, paths);
+            }),
+            Intent::ReorderDesigns(designs) => change_designs(&mut session, mark, |project| {
+                project.set_designs(designs.clone());
+            }),
             Intent::CloseLoop(closed) => {
                 session.change_whole(mark, |project| project.set_closed(*closed));
             }
@@ -381,14 +386,13 @@ pub fn poll(
             notices.leave_project();
             playback.rewind(session.timing());
             auto_fit.0 = true;
-            // Newly opened designs play at once, and so does a gallery project that the user chose
-            // by its thumbnail. A saved project plays only when the user starts it.
+            // New designs play at once, and so does a chosen gallery project; saved ones do not.
             let chosen = state.to_play.0.take();
             let is_chosen = chosen.is_some()
                 && chosen.as_deref() == session.gallery_name()
                 && !session.is_recovered();
-            let plays = session.has_new_designs() || is_chosen;
-            *state.is_to_play = plays && !presentation.is_active();
+            *state.is_to_play =
+                (session.has_new_designs() || is_chosen) && !presentation.is_active();
         }
     }
     // Playback starts once a film by the requested method, even a draft, is on the stage, unless

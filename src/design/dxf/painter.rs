@@ -65,14 +65,7 @@ pub(super) fn paint(
     let (groups, covered) = painter.groups()?;
     notes.extend(filled_outlines(&groups).map(ImportNote::Dxf));
     notes.extend(covered.into_iter().map(ImportNote::Dxf));
-    let outlines = match painter.sheet.rings.is_empty() {
-        true => None,
-        false => match Regions::from_rings_reporting(&painter.ring_points(), FillRule::EvenOdd) {
-            Err(RegionsError::Empty) => None,
-            found => Some(found?),
-        },
-    };
-    let (outlines, mut repairs) = outlines.unzip();
+    let (outlines, mut repairs) = painter.repaired_outlines()?.unzip();
     let shown = groups.iter().flat_map(|(_, group)| group.areas(strokes));
     let all = outlines
         .iter()
@@ -107,6 +100,9 @@ pub(super) fn paint(
 
 /// Layer, colour and opacity (as bits) of a group.
 type GroupKey = (Rc<str>, [u8; 3], u64);
+
+/// Groups of a drawing with their keys.
+type StyledGroups = Vec<(GroupKey, StyledGroup)>;
 
 /// Outlines, areas, lines and letters of one layer and paint. All areas are filled by the non-zero
 /// rule.
@@ -270,7 +266,7 @@ impl SheetPainter {
 
     /// Returns the outlines, areas, lines and letters of each layer and paint, in the order in which
     /// the drawing uses them first. Also returns notes on what others cover.
-    fn groups(&self) -> Result<(Vec<(GroupKey, StyledGroup)>, Vec<DxfNote>), TooManyPoints> {
+    fn groups(&self) -> Result<(StyledGroups, Vec<DxfNote>), TooManyPoints> {
         let mut parts: BTreeMap<GroupKey, GroupParts> = BTreeMap::new();
         for OutlineRing { points, style, .. } in &self.sheet.rings {
             let group = parts.entry(self.group_key(*style)).or_default();
@@ -288,6 +284,18 @@ impl SheetPainter {
         let mut groups: Vec<_> = parts.map(|(key, parts)| (key, parts.united())).collect();
         groups.sort_by_key(|(key, _)| first_use.get(key).copied());
         Ok((groups, covering.notes()))
+    }
+
+    /// Returns the area that the closed outlines enclose, with the repairs that it needed; `None`
+    /// without an area.
+    fn repaired_outlines(&self) -> Result<Option<(Regions, Repairs)>, RegionsError> {
+        if self.sheet.rings.is_empty() {
+            return Ok(None);
+        }
+        match Regions::from_rings_reporting(&self.ring_points(), FillRule::EvenOdd) {
+            Err(RegionsError::Empty) => Ok(None),
+            found => found.map(Some),
+        }
     }
 
     fn group_key(&self, style: usize) -> GroupKey {

@@ -92,25 +92,8 @@ impl fmt::Display for DxfNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Entities(entities) => entities.fmt(f),
-            Self::Lines { count, widths } => {
-                let [low, high] = widths.map(|width| format!("{width:.3e}").parse().unwrap_or(width));
-                let lines = if *count == 1 { "line" } else { "lines" };
-                write!(f, "{count} open {lines} drawn as strokes, {low}")?;
-                if high > low {
-                    write!(f, " to {high}")?;
-                }
-                f.write_str(" drawing units wide; close them to fill their area")
-            }
-            Self::FilledOutlines { count: 1, layer } => write!(
-                f,
-                "1 closed outline on layer {} filled; DXF programs draw it as a line",
-                SanitizedLine(layer)
-            ),
-            Self::FilledOutlines { count, layer } => write!(
-                f,
-                "{count} closed outlines filled, the first on layer {}; DXF programs draw them as lines",
-                SanitizedLine(layer)
-            ),
+            Self::Lines { count, widths } => write_lines(f, *count, *widths),
+            Self::FilledOutlines { count, layer } => write_filled_outlines(f, *count, layer),
             Self::OutlinesAsLines(1) => f.write_str(
                 "1 closed outline drawn as a line, because a fill would hide what is drawn inside it",
             ),
@@ -151,6 +134,30 @@ impl fmt::Display for DxfNote {
                 SanitizedLine(name)
             ),
         }
+    }
+}
+
+fn write_lines(f: &mut fmt::Formatter<'_>, count: usize, widths: [f64; 2]) -> fmt::Result {
+    let [low, high] = widths.map(|width| format!("{width:.3e}").parse().unwrap_or(width));
+    let lines = if count == 1 { "line" } else { "lines" };
+    write!(f, "{count} open {lines} drawn as strokes, {low}")?;
+    if high > low {
+        write!(f, " to {high}")?;
+    }
+    f.write_str(" drawing units wide; close them to fill their area")
+}
+
+fn write_filled_outlines(f: &mut fmt::Formatter<'_>, count: usize, layer: &str) -> fmt::Result {
+    let layer = SanitizedLine(layer);
+    match count {
+        1 => write!(
+            f,
+            "1 closed outline on layer {layer} filled; DXF programs draw it as a line"
+        ),
+        count => write!(
+            f,
+            "{count} closed outlines filled, the first on layer {layer}; DXF programs draw them as lines"
+        ),
     }
 }
 

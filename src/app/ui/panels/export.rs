@@ -104,6 +104,40 @@ const GIF: FilmFileFormat = FilmFileFormat::Film(FilmKind::Gif);
 /// Draws the choice of the file type, and the settings that depend on it: frame rate and
 /// background.
 fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
+    let format = file_type(ui, state, draft);
+    let is_gif = format == GIF;
+    if is_gif {
+        draft.film.fps = draft.film.fps.min(MAX_GIF_FPS);
+    }
+    let rates = [
+        (25, "25", "25 fps (PAL)"),
+        (30, "30", "30 fps (NTSC, half the rate of most screens)"),
+        (50, "50", "50 fps, very smooth; the maximum for GIF"),
+        (
+            60,
+            "60",
+            "60 fps, the rate of most screens; too fast for GIF",
+        ),
+    ];
+    row(ui, "Frame rate", "Frames per second.", |ui| {
+        let is_available = |fps: &u32| !is_gif || *fps <= MAX_GIF_FPS;
+        segmented_control_where(ui, &mut draft.film.fps, &rates, is_available)
+    });
+    let is_opaque = !format.can_be_transparent();
+    let mut is_transparent = draft.film.is_transparent && !is_opaque;
+    row(ui, "Background", "Background of the film.", |ui| {
+        segmented_control_where(ui, &mut is_transparent, &BACKGROUNDS, |transparent| {
+            !transparent || !is_opaque
+        })
+    });
+    // MP4 cannot be transparent, but the setting remains unchanged for other file types.
+    if !is_opaque {
+        draft.film.is_transparent = is_transparent;
+    }
+}
+
+/// Draws the choice of the file type, and returns it.
+fn file_type(ui: &mut Ui, state: &UiState, draft: &mut Preferences) -> FilmFileFormat {
     let before = draft.format(content(state));
     let mut format = before;
     // The file types are in three rows, because their labels would overlap in one.
@@ -137,35 +171,7 @@ fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
     if format != before {
         draft.record_format = Some(format);
     }
-    let is_gif = format == GIF;
-    if is_gif {
-        draft.film.fps = draft.film.fps.min(MAX_GIF_FPS);
-    }
-    let rates = [
-        (25, "25", "25 fps (PAL)"),
-        (30, "30", "30 fps (NTSC, half the rate of most screens)"),
-        (50, "50", "50 fps, very smooth; the maximum for GIF"),
-        (
-            60,
-            "60",
-            "60 fps, the rate of most screens; too fast for GIF",
-        ),
-    ];
-    row(ui, "Frame rate", "Frames per second.", |ui| {
-        let is_available = |fps: &u32| !is_gif || *fps <= MAX_GIF_FPS;
-        segmented_control_where(ui, &mut draft.film.fps, &rates, is_available)
-    });
-    let is_opaque = !format.can_be_transparent();
-    let mut is_transparent = draft.film.is_transparent && !is_opaque;
-    row(ui, "Background", "Background of the film.", |ui| {
-        segmented_control_where(ui, &mut is_transparent, &BACKGROUNDS, |transparent| {
-            !transparent || !is_opaque
-        })
-    });
-    // MP4 cannot be transparent, but the setting remains unchanged for other file types.
-    if !is_opaque {
-        draft.film.is_transparent = is_transparent;
-    }
+    format
 }
 
 /// Draws the presets for common uses, which set most of the other settings.

@@ -126,12 +126,11 @@ fn items_at(x: f64) -> Vec<DrawingItem> {
         gradient,
         label: Some("</script>".to_owned()),
     };
+    let stops = [0.0, 1.0].map(|offset| GradientStop { offset, paint });
     let gradient = |geometry| Gradient {
         geometry,
         frame: DAffine2::from_scale_angle_translation(p(9.0, 9.0), 0.0, p(1.0, 2.0)),
-        stops: [0.0, 1.0]
-            .map(|offset| GradientStop { offset, paint })
-            .to_vec(),
+        stops: stops.to_vec(),
         spread: GradientSpread::Pad,
     };
     let line = |join| DrawingItem::Stroke {
