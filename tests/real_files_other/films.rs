@@ -2,7 +2,7 @@
 //! parts keep their identity, and players show what was made.
 
 use morphospace::design::{Design, Truss};
-use morphospace::export::{Camera, FilmSpec, VectorAnimation};
+use morphospace::export::{Camera, ExportTarget, FilmSpec, VectorAnimation, write_film};
 use morphospace::geometry::DVec2;
 use morphospace::transition::Transition;
 use morphospace::work::progress::Silent;
@@ -86,13 +86,9 @@ fn a_leaf_becomes_a_fish_without_running_beyond() {
 
 #[test]
 fn many_small_parts_become_one_vehicle() {
-    let walkers = svg(
-        "<circle cx=\"20\" cy=\"20\" r=\"7\"/><rect x=\"14\" y=\"30\" width=\"12\" height=\"30\"/>
-        <circle cx=\"60\" cy=\"25\" r=\"6\"/><rect x=\"55\" y=\"34\" width=\"10\" height=\"26\"/>",
-    );
-    let van = svg(
-        "<path d=\"M10 30H70L90 45V65H10Z\"/><circle cx=\"28\" cy=\"70\" r=\"8\"/><circle cx=\"72\" cy=\"70\" r=\"8\"/>",
-    );
+    let walkers =
+        svg("<path d=\"M14 10H26V24H14ZM14 30H26V60H14ZM54 12H66V26H54ZM54 32H66V60H54Z\"/>");
+    let van = svg("<path d=\"M10 30H70L90 45V65H10ZM20 68H36V80H20ZM64 68H80V80H64Z\"/>");
     let film = transition(&walkers, &van);
     let areas = [&walkers, &van].map(|design| outline(design).area());
     assert_area_between(&film, areas, 0.2);
@@ -176,4 +172,85 @@ fn shapes_of_a_lottie_film_begin_with_their_type() {
         late.iter().all(|(_, text)| text.contains("\"ind\":")),
         "{late:?}"
     );
+}
+
+#[test]
+fn still_pixels_of_a_gif_stay_and_faint_changes_arrive() {
+    // A faint square appears on the left, and a bar moves on the right.
+    let [a, b] = [("#f4f4f4", 70), ("#e8e8e8", 85)].map(|(faint, x)| {
+        svg(&format!(
+            "<rect width=\"120\" height=\"90\" fill=\"#ffffff\"/>
+             <rect x=\"10\" y=\"20\" width=\"30\" height=\"30\" fill=\"{faint}\"/>
+             <rect x=\"{x}\" y=\"20\" width=\"20\" height=\"50\" fill=\"#2255aa\"/>"
+        ))
+    });
+    let camera = Camera {
+        ground: Some("#ffffff".parse().expect("a colour")),
+        ..Camera::around(transition(&a, &b), 240)
+    };
+    let film = FilmSpec::evenly(0.0, 1.0, 24, 25.0).expect("a film");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("film.gif");
+    let target = ExportTarget::of_path(&path)
+        .expect("a target")
+        .preferring_film();
+    write_film(&camera, &film, &target, &Silent).expect("written");
+    let frames = gif_frames(&path);
+    assert_eq!(frames.len(), 24);
+    let far = |a: [u8; 3], b: [u8; 3]| a.iter().zip(b).map(|(a, b)| a.abs_diff(b)).max();
+    let [width, height] = [camera.view.size().width(), camera.view.size().height()];
+    // Pixels that are white in each exact frame, such as the corners, and those of the square.
+    let exact: Vec<_> = film.times().iter().map(|&t| camera.pixels(t)).collect();
+    for y in 0..height {
+        for x in 0..width {
+            let index = (y * width + x) as usize;
+            let is_ground = exact
+                .iter()
+                .all(|frame| frame.get_pixel(x, y).0 == [255; 4]);
+            let shown = frames.iter().map(|frame| frame[index]);
+            let moved = shown
+                .map(|pixel| far(pixel, frames[0][index]))
+                .max()
+                .flatten();
+            assert!(
+                !is_ground || moved <= Some(8),
+                "({x}, {y}) changes by {moved:?}"
+            );
+        }
+    }
+    let last = &exact[23];
+    let faint = last
+        .enumerate_pixels()
+        .filter(|(_, _, pixel)| pixel.0 == [232, 232, 232, 255]);
+    let faint: Vec<_> = faint.map(|(x, y, _)| (y * width + x) as usize).collect();
+    assert!(faint.len() > 1000, "{}", faint.len());
+    for index in faint {
+        assert!(
+            far(frames[23][index], [232; 3]) <= Some(4),
+            "{:?}",
+            frames[23][index]
+        );
+    }
+}
+
+/// Colours of all pixels of each frame of a GIF, as players show them.
+fn gif_frames(path: &std::path::Path) -> Vec<Vec<[u8; 3]>> {
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let file = std::fs::File::open(path).expect("opened");
+    let mut decoder = options.read_info(file).expect("a GIF");
+    let [width, height] = [decoder.width(), decoder.height()].map(usize::from);
+    let mut canvas = vec![[0; 3]; width * height];
+    let mut frames = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().expect("a frame") {
+        let [left, top, columns] = [frame.left, frame.top, frame.width].map(usize::from);
+        for (k, pixel) in frame.buffer.chunks_exact(4).enumerate() {
+            if pixel[3] > 0 {
+                let at = (top + k / columns) * width + left + k % columns;
+                canvas[at] = [pixel[0], pixel[1], pixel[2]];
+            }
+        }
+        frames.push(canvas.clone());
+    }
+    frames
 }

@@ -158,7 +158,7 @@ fn rings_in_rings_are_holes() {
     assert_near(washer.area(), 16.0 - PI);
     let twice = found(&format!("{SQUARE} {circle} {SQUARE} {circle}")).expect("an outline");
     assert_near(twice.regions.area(), 16.0 - PI);
-    assert_eq!(twice.notes, [ImportNote::Duplicates(5)]);
+    assert_eq!(words(&twice), [ImportNote::Duplicates(5).to_string()]);
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn blocks_are_expanded_at_their_insertions() {
     let found = read_with(file.as_bytes(), 1e-5).expect("copies");
     assert_eq!(found.regions.len(), 6);
     assert_near(found.regions.area(), 3.0 * (16.0 + 32.0) + 4.0 * 16.0);
-    assert_eq!(found.notes.len(), 1);
+    assert_eq!(words(&found).len(), 1);
 }
 
 #[test]

@@ -104,7 +104,7 @@ fn lines_can_be_left_out_of_the_silhouette() {
     };
     let found = read(file.as_bytes(), &options).expect("a square").outlines;
     assert_near(found.regions.area(), 16.0);
-    assert_eq!(found.notes, [ImportNote::Strokes(1)]);
+    assert_eq!(words(&found), [ImportNote::Strokes(1).to_string()]);
     assert_eq!(found.paint_layers.len(), 2);
 }
 
