@@ -278,32 +278,39 @@ fn wait_for_export(window: &mut HeadlessWindow) {
     window.update();
 }
 
-#[test]
-fn an_export_asks_for_folder_and_name_and_remembers_the_folder() {
-    let [designs, other] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+/// Opens a window with a short, small film, saved as `mine.morph` in a folder.
+fn window_with_short_film(folder: &Path) -> HeadlessWindow {
     let mut window = HeadlessWindow::with_gallery();
     let mut project = window.session().project().cloned().expect("a project");
     project.timing.duration_secs = 0.1;
     window.send(Intent::ReplaceSettings(Box::new(project)));
-    window.send(Intent::SaveTo(designs.path().join("mine.morph")));
+    window.send(Intent::SaveTo(folder.join("mine.morph")));
     let mut preferences = *window.preferences();
     preferences.film.layout.lines = 32;
     window.send(Intent::SetPreferences(preferences));
-    let dialog = |window: &HeadlessWindow| window.0.world().resource::<FileDialogRequest>().clone();
+    window
+}
+
+#[test]
+fn an_export_asks_for_folder_and_name_and_remembers_the_folder() {
+    let [designs, other] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    let mut window = window_with_short_film(designs.path());
+    let folder = |window: &HeadlessWindow| {
+        let dialog = window.0.world().resource::<FileDialogRequest>();
+        dialog.folder().map(Path::to_owned)
+    };
     window.type_char(KeyCode::KeyG, "g");
     window.update();
-    let film = |name: &str| DialogPurpose::Export(ExportKind::Film, name.to_owned());
-    assert_eq!(open_dialog(&window), Some(film("mine.gif")));
+    let film = DialogPurpose::Export(ExportKind::Film, "mine.gif".to_owned());
+    assert_eq!(open_dialog(&window), Some(film));
     assert_eq!(
-        dialog(&window).folder(),
+        folder(&window).as_deref(),
         Some(designs.path()),
         "next to the project"
     );
     choose(&mut window, &[]);
-    assert!(
-        window.0.world().resource::<FilmExporter>().work().is_none(),
-        "cancelled"
-    );
+    let is_running = window.0.world().resource::<FilmExporter>().work().is_some();
+    assert!(!is_running, "cancelled");
     window.send(Intent::AskExport(ExportKind::Film));
     // The extension is added, and decides the file type if there is one.
     choose(&mut window, &[&other.path().join("first")]);
@@ -312,31 +319,29 @@ fn an_export_asks_for_folder_and_name_and_remembers_the_folder() {
     assert!(other.path().join("first.gif").is_file());
     window.send(Intent::AskExport(ExportKind::Film));
     assert_eq!(
-        dialog(&window).folder(),
+        folder(&window).as_deref(),
         Some(other.path()),
         "the last folder"
     );
     choose(&mut window, &[&other.path().join("second.apng")]);
     wait_for_export(&mut window);
     assert!(other.path().join("second.apng").is_file());
-    // A file that the user selects is replaced; an export without a selected file never replaces.
-    std::fs::write(other.path().join("first.gif"), "old").expect("written");
-    window.send(Intent::Export(ExportKind::Film, other.path().join("first")));
+}
+
+#[test]
+fn an_export_replaces_only_a_file_that_was_selected() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window_with_short_film(folder.path());
+    let file = folder.path().join("first.gif");
+    std::fs::write(&file, "old").expect("written");
+    let is_old = || std::fs::read(&file).expect("a file") == b"old";
+    let unselected = folder.path().join("first");
+    window.send(Intent::Export(ExportKind::Film, unselected));
     wait_for_export(&mut window);
-    assert_eq!(
-        std::fs::read(other.path().join("first.gif")).expect("a file"),
-        b"old"
-    );
-    assert!(other.path().join("first-2.gif").is_file());
-    window.send(Intent::Export(
-        ExportKind::Film,
-        other.path().join("first.gif"),
-    ));
+    assert!(is_old() && folder.path().join("first-2.gif").is_file());
+    window.send(Intent::Export(ExportKind::Film, file.clone()));
     wait_for_export(&mut window);
-    assert_ne!(
-        std::fs::read(other.path().join("first.gif")).expect("a file"),
-        b"old"
-    );
+    assert!(!is_old());
 }
 
 #[test]

@@ -388,11 +388,9 @@ pub fn poll(
             auto_fit.0 = true;
             // New designs play at once, and so does a chosen gallery project; saved ones do not.
             let chosen = state.to_play.0.take();
-            let is_chosen = chosen.is_some()
-                && chosen.as_deref() == session.gallery_name()
-                && !session.is_recovered();
-            *state.is_to_play =
-                (session.has_new_designs() || is_chosen) && !presentation.is_active();
+            let is_chosen = chosen.is_some() && chosen.as_deref() == session.gallery_name();
+            let plays = session.has_new_designs() || is_chosen && !session.is_recovered();
+            *state.is_to_play = plays && !presentation.is_active();
         }
     }
     // Playback starts once a film by the requested method, even a draft, is on the stage, unless
