@@ -328,3 +328,36 @@ fn a_part_moves_to_its_like_and_not_to_the_plate_below_it() {
         assert!(figure.layers.iter().any(is_dark), "at {k}");
     }
 }
+
+/// Drawings of `browser` that differ from Chromium, each with a note that says so. All others are
+/// the same (`scripts/compare_browser.py`).
+const REPORTED: [(&str, &str); 4] = [
+    ("geom-09", "foreignObject: replaced"),
+    ("marker-07", "marker: turned"),
+    ("x-excalidraw", "@font-face: ignored"),
+    ("x-figma", "mix-blend-mode: painted approximately"),
+];
+
+#[test]
+fn drawings_that_look_as_in_a_browser_have_no_notes_and_others_have() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/real_files/browser");
+    let entries = std::fs::read_dir(folder).expect("the drawings");
+    let mut count = 0;
+    for entry in entries {
+        let path = entry.expect("a file").path();
+        let design = import_file(&path, &ImportOptions::default()).expect("a drawing");
+        let notes: Vec<_> = design.notes.iter().map(ToString::to_string).collect();
+        // Which fonts are installed depends on the machine; crossings change nothing.
+        let is_loss = |note: &&String| !note.starts_with("the font") && !note.contains("crossing");
+        let lost: Vec<_> = notes.iter().filter(is_loss).collect();
+        match REPORTED.iter().find(|(name, _)| *name == design.name) {
+            Some((_, note)) => {
+                let is_named = lost.iter().any(|found| found.starts_with(note));
+                assert!(is_named, "{}: {notes:?}", design.name);
+            }
+            None => assert!(lost.is_empty(), "{}: {notes:?}", design.name),
+        }
+        count += 1;
+    }
+    assert!(count > 100, "{count} drawings");
+}
