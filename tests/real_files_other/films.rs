@@ -201,22 +201,17 @@ fn still_pixels_of_a_gif_stay_and_faint_changes_arrive() {
     let [width, height] = [camera.view.size().width(), camera.view.size().height()];
     // Pixels that are white in each exact frame, such as the corners, and those of the square.
     let exact: Vec<_> = film.times().iter().map(|&t| camera.pixels(t)).collect();
-    for y in 0..height {
-        for x in 0..width {
-            let index = (y * width + x) as usize;
-            let is_ground = exact
-                .iter()
-                .all(|frame| frame.get_pixel(x, y).0 == [255; 4]);
-            let shown = frames.iter().map(|frame| frame[index]);
-            let moved = shown
-                .map(|pixel| far(pixel, frames[0][index]))
-                .max()
-                .flatten();
-            assert!(
-                !is_ground || moved <= Some(8),
-                "({x}, {y}) changes by {moved:?}"
-            );
-        }
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let index = (y * width + x) as usize;
+        let mut pixels = exact.iter().map(|frame| frame.get_pixel(x, y).0);
+        let is_ground = pixels.all(|pixel| pixel == [255; 4]);
+        let shown = frames.iter().map(|frame| frame[index]);
+        let moved = shown.map(|pixel| far(pixel, frames[0][index])).max();
+        let moved = moved.flatten();
+        assert!(
+            !is_ground || moved <= Some(8),
+            "({x}, {y}) changes by {moved:?}"
+        );
     }
     let last = &exact[23];
     let faint = last

@@ -88,16 +88,21 @@ fn font(letters: &[&[Contour]]) -> Vec<u8> {
         ),
         (b"maxp", maxp),
     ];
+    font_file(&tables)
+}
+
+/// A font file with the given tables.
+fn font_file(tables: &[(&[u8; 4], Vec<u8>)]) -> Vec<u8> {
     let mut file = words([1, 0, tables.len() as i16, 64, 2, 48]);
     let mut place = file.len() + 16 * tables.len();
-    for (tag, data) in &tables {
+    for (tag, data) in tables {
         file.extend(*tag);
         for number in [0, place, data.len()] {
             file.extend((number as u32).to_be_bytes());
         }
         place += data.len().next_multiple_of(4);
     }
-    for (_, data) in &tables {
+    for (_, data) in tables {
         file.extend(data);
         file.resize(file.len().next_multiple_of(4), 0);
     }
