@@ -137,7 +137,7 @@ mod tests {
         assert!(!Format::Svg.matches_extension("svg".as_ref()));
         assert_eq!(
             extensions().join(" "),
-            "png jpg jpeg bmp webp svg dxf obj json geojson"
+            "png jpg jpeg bmp webp svg svgz dxf obj json geojson"
         );
     }
 }

@@ -24,7 +24,6 @@ use crate::transition::{FigureLayer, Frame, TransitionStyle, VectorFigure};
 
 use super::glyph_outlines;
 use super::outline::{OutlinePath, is_drawable};
-use super::painted_blend::SpaceColours;
 use super::size::PixelSize;
 use super::view::PlaneView;
 
@@ -159,20 +158,9 @@ impl Drawing {
         }
     }
 
-    /// Adds a blend of several designs seen through `view`, in the designs' own colours, as pixels.
-    pub fn push_painted_blend(
-        &mut self,
-        blend: &SpaceFrame,
-        colours: &SpaceColours,
-        view: &PlaneView,
-    ) {
-        let places = blend.figure().rings.concat();
-        self.push_pixels(&places, view, |raster| colours.picture(blend, raster));
-    }
-
     /// Adds a raster image that covers the bounding box of `places` (points of the plane), clipped
     /// to the drawing. `picture` renders the image, or returns `None` if nothing is visible.
-    fn push_pixels(
+    pub(super) fn push_pixels(
         &mut self,
         places: &[DVec2],
         view: &PlaneView,

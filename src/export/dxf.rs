@@ -358,7 +358,7 @@ mod tests {
         let start = at(&source, &target, 0.0);
         assert_eq!(
             values(&start, "LAYER", "2"),
-            ["Fenster gro\\U+00DF", "WALL", "a_b"]
+            ["WALL", "Fenster gro\\U+00DF", "a_b"]
         );
         let end = at(&source, &target, 1.0);
         assert_eq!(values(&end, "LAYER", "2"), ["Dach", "WALL", "a_b"]);

@@ -43,6 +43,19 @@ struct SourceColours {
     mean: Rgb,
 }
 
+impl Drawing {
+    /// Adds a blend of several designs seen through `view`, in the designs' own colours, as pixels.
+    pub fn push_painted_blend(
+        &mut self,
+        blend: &SpaceFrame,
+        colours: &SpaceColours,
+        view: &PlaneView,
+    ) {
+        let places = blend.figure().rings.concat();
+        self.push_pixels(&places, view, |raster| colours.picture(blend, raster));
+    }
+}
+
 /// A colour with premultiplied alpha, in [0, 1].
 type Premultiplied = [f64; 4];
 

@@ -6,7 +6,10 @@ use image::{Rgba, RgbaImage};
 use morphospace::colour::Rgb;
 use morphospace::design::{Design, DesignForm, ImportOptions, import_file};
 use morphospace::export::{Camera, PixelSize, PlaneView};
-use morphospace::transition::{Transition, TransitionSpec, TransitionStyle, VectorFigure};
+use morphospace::geometry::Similarity;
+use morphospace::transition::{
+    DesignFit, Transition, TransitionSpec, TransitionStyle, VectorFigure, place_in_frame,
+};
 use morphospace::work::progress::Silent;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -84,7 +87,7 @@ fn assert_shows(name: &str, expected: &[Expected]) {
         let edges = boxes[i + 1].iter().zip(bounds.iter().flatten());
         for (found, edge) in edges {
             assert!(
-                (found - edge).abs() < 2.0 * pixel,
+                (found - edge).abs() < 3.0 * pixel,
                 "{name}: {:?}",
                 boxes[i + 1]
             );
@@ -201,7 +204,10 @@ fn a_hole_depends_on_the_fill_rule() {
 
 #[test]
 fn icons_of_different_sets_fill_the_page_alike() {
-    let film = transition(&drawing("icon-of-32"), &drawing("icon-of-640"));
+    let [first, second] = ["icon-of-32", "icon-of-640"].map(drawing);
+    let fit = DesignFit::default();
+    let placed = place_in_frame(&second, &first, fit, Similarity::IDENTITY).expect("a place");
+    let film = transition(&first, &placed);
     let sides = [0.0, 1.0].map(|t| {
         let rings = film.frame(t).figure().rings;
         let points = || rings.iter().flatten();
@@ -209,7 +215,8 @@ fn icons_of_different_sets_fill_the_page_alike() {
         width(f64::max) - width(f64::min)
     });
     assert!((sides[0] / sides[1] - 1.0).abs() < 0.01, "{sides:?}");
-    assert!(!film.notes().is_empty(), "the page is fitted in silence");
+    let fitted = fit.fitted_page(&second, &first).expect("a fitted page");
+    assert_eq!(fitted.first_size.x / fitted.size.x, 0.05);
 }
 
 #[test]

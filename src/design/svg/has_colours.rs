@@ -11,12 +11,16 @@ const PAINTS: [&str; 3] = ["fill", "stroke", "stop-color"];
 /// Values of the attributes and properties in [`PAINTS`] that specify no colour.
 const NOTHING: [&str; 6] = ["", "none", "currentColor", "inherit", "initial", "unset"];
 
-/// Returns whether any fill, stroke or gradient stop of a drawing has a colour.
+/// Returns whether any fill, stroke or gradient stop of a drawing has a colour, or whether it has
+/// pictures.
 pub(super) fn names_a_colour(document: &Document) -> bool {
     document.descendants().any(|node| {
         let attributes = PAINTS.iter().filter_map(|name| node.attribute(*name));
         let styles = node.attribute("style").into_iter().chain(sheet(&node));
-        attributes.into_iter().any(is_colour) || styles.into_iter().any(declares_colour)
+        let is_picture = node.tag_name().name() == "image";
+        is_picture
+            || attributes.into_iter().any(is_colour)
+            || styles.into_iter().any(declares_colour)
     })
 }
 

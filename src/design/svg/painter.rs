@@ -19,6 +19,7 @@ use super::stroke;
 use super::stroke::ShapeStroke;
 use crate::colour::{Gradient, Paint};
 use crate::design::flatten::Flattener;
+use crate::design::silhouette::MAX_PIXELS;
 use crate::geometry::{DAffine2, DVec2, FillRule, Repairs};
 use std::collections::HashSet;
 use usvg::roxmltree::{Document, NodeId};
@@ -98,7 +99,7 @@ pub(super) fn paint_tree(
         is_in_text: false,
         depth: 0,
         is_embedded: false,
-        picture_pixels_left: pictures::MAX_PICTURE_PIXELS,
+        picture_pixels_left: MAX_PICTURE_PIXELS,
     };
     painter.group(tree.root(), None, options.element.is_none())?;
     match options.element {
@@ -118,6 +119,10 @@ fn first_source(node: &Node) -> Option<NodeId> {
         _ => None,
     })
 }
+
+/// Maximum number of pixels of all pictures in a drawing together (resource limit: as many as those
+/// of one picture file).
+const MAX_PICTURE_PIXELS: u64 = MAX_PIXELS;
 
 /// Maximum depth of patterns and embedded drawings within each other (resource limit: each level
 /// multiplies the number of shapes).

@@ -92,7 +92,7 @@ impl RuleList {
         let (keyword, condition) = at_rule.split_at(end.unwrap_or(at_rule.len()));
         match keyword.to_ascii_lowercase().as_str() {
             "media" if !media_matches(condition) => {}
-            "supports" if !is_supported(condition, 0) => {}
+            "supports" if !is_supported(condition) => {}
             "media" | "supports" => self.read_conditional(body, &inner, lost),
             "layer" => {
                 let layer = self.layer(condition.trim());

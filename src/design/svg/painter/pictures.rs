@@ -3,14 +3,10 @@
 
 use super::SvgPainter;
 use crate::colour::{Paint, Rgb};
-use crate::design::silhouette::{MAX_PIXELS, decode};
+use crate::design::silhouette::decode;
 use crate::design::svg::ink_layers::{WindingRings, clip_rings};
 use image::RgbaImage;
 use usvg::{Image, ImageKind};
-
-/// Maximum number of pixels of all pictures in a drawing together (resource limit: as many as those
-/// of one picture file).
-pub(super) const MAX_PICTURE_PIXELS: u64 = MAX_PIXELS;
 
 impl SvgPainter<'_> {
     /// Adds a rectangle in the mean colour of a picture. Pictures that cannot be decoded are
