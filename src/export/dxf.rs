@@ -361,7 +361,7 @@ mod tests {
             ["WALL", "Fenster gro\\U+00DF", "a_b"]
         );
         let end = at(&source, &target, 1.0);
-        assert_eq!(values(&end, "LAYER", "2"), ["Dach", "WALL", "a_b"]);
+        assert_eq!(values(&end, "LAYER", "2"), ["WALL", "Dach", "a_b"]);
         for text in [start, end] {
             assert!(text.contains("9\n$INSUNITS\n70\n1\n"), "{text}");
             let layers = values(&text, "POLYLINE", "8");

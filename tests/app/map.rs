@@ -313,6 +313,7 @@ fn escape_ends_drawing_before_it_closes_the_map() {
     let mut window = with_map(window);
     let escape = |window: &mut HeadlessWindow| window.press(KeyCode::Escape, Key::Escape);
     window.type_char(KeyCode::KeyE, "e");
+    window.update();
     assert!(map_view(&window).is_drawing_path);
     escape(&mut window);
     assert!(map_view(&window).is_shown && !map_view(&window).is_drawing_path);

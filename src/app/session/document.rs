@@ -466,6 +466,10 @@ impl OpenDocument {
             if now.designs.len() == staged.designs.len() {
                 now.designs.clone_from(&staged.designs);
                 now.fit = staged.fit;
+                // The title was dropped together with the designs.
+                if now.title.is_empty() {
+                    now.title.clone_from(&staged.title);
+                }
             } else {
                 now.clone_from(staged);
             }
