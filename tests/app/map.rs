@@ -309,16 +309,15 @@ fn designs_without_a_common_mesh_are_blended_as_fields_and_escape_closes_the_map
 
 #[test]
 fn escape_ends_drawing_before_it_closes_the_map() {
-    let (_folder, window) = with_rectangles(3, false);
-    let mut window = with_map(window);
+    let (_folder, mut window) = with_rectangles(3, false);
     let escape = |window: &mut HeadlessWindow| window.press(KeyCode::Escape, Key::Escape);
     window.type_char(KeyCode::KeyE, "e");
-    window.update();
     assert!(map_view(&window).is_drawing_path);
     escape(&mut window);
     assert!(map_view(&window).is_shown && !map_view(&window).is_drawing_path);
     // Recording a path ends in the same way, and leaves no path.
     window.type_char(KeyCode::KeyW, "w");
+    assert!(map_view(&window).is_recording());
     window.press(KeyCode::ArrowRight, Key::ArrowRight);
     escape(&mut window);
     assert!(map_view(&window).is_shown && !map_view(&window).is_recording());
