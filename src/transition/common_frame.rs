@@ -11,9 +11,9 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DesignFit {
-    /// As [`Self::AsDrawn`]; but a page whose longer side is more than [`MAX_PAGE_RATIO`] times as
-    /// long or as short as that of the first design's page is scaled to fit into that page, with
-    /// the same centre.
+    /// As [`Self::AsDrawn`]; but a page whose longer side is more than four times as long or as
+    /// short as that of the first design's page is scaled to fit into that page, with the same
+    /// centre.
     #[default]
     Auto,
     /// Coordinates as in the files; the centres of photographs, which have no coordinates, are
