@@ -4,8 +4,8 @@
 //!
 //! All formats are written from the same [`Drawing`] of a frame, so a frame looks the same in each.
 //! Files are written atomically; films are read back and verified before they replace an earlier
-//! file. The same transition gives the same bytes on every run, except for videos, which
-//! ffmpeg encodes. Frames are drawn on all cores and written in order. This module does not depend on the
+//! file. The same transition gives the same bytes on every run, except for videos, which ffmpeg
+//! encodes. Frames are drawn on all cores and written in order. This module does not depend on the
 //! window or the command line.
 //!
 //! ```no_run

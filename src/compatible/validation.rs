@@ -23,8 +23,8 @@ pub enum CompatibleError {
     /// The face with this index has different vertices in the two designs.
     #[error("face {} differs between source and target; both need the same faces in the same order", .0 + 1)]
     FacesDiffer(usize),
-    /// The face with this index has more than three vertices, and no way to divide it into triangles
-    /// is valid in both designs.
+    /// The face with this index has more than three vertices, and no way to divide it into
+    /// triangles is valid in both designs.
     #[error("face {} cannot be divided into triangles that are valid in both designs; divide it in the files", .0 + 1)]
     NoTriangulation(usize),
     /// A coordinate is NaN or infinite.

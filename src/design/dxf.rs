@@ -6,8 +6,8 @@
 //! [`JOIN_TOLERANCE`] count as one. Closed outlines are filled by the even-odd rule, unless the
 //! fill would hide what is drawn inside them. Curves that do not close are lines with a width:
 //! their line weight in the declared unit, or relative to the default line weight, and at least the
-//! fraction [`HAIR`] of the drawing. Hatches, solids and letters are areas. Each combination of DXF layer and colour becomes
-//! one or more paint layers; lines lie above areas, text above both.
+//! fraction [`HAIR`] of the drawing. Hatches, solids and letters are areas. Each combination of DXF
+//! layer and colour becomes one or more paint layers; lines lie above areas, text above both.
 //!
 //! One drawing unit is one design unit. Layers that are off or frozen, invisible entities and paper
 //! space are left out. Entities that are not supported or broken are left out and reported.

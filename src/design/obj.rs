@@ -1,9 +1,10 @@
 //! Importer of Wavefront OBJ files as plane triangle meshes.
 //!
 //! Reads `v` lines (vertices) and `f` lines (faces); ignores names, groups, normals and texture
-//! coordinates. Lines of other kinds, such as materials, curves and points, are reported. Vertices keep their number and order, so two files with the same `f` lines
-//! give the same connectivity. OBJ crates that renumber vertices by first use or per texture
-//! coordinate do not guarantee this, and lose the numbers that error messages need.
+//! coordinates. Lines of other kinds, such as materials, curves and points, are reported. Vertices
+//! keep their number and order, so two files with the same `f` lines give the same connectivity.
+//! OBJ crates that renumber vertices by first use or per texture coordinate do not guarantee this,
+//! and lose the numbers that error messages need.
 //!
 //! Faces with more than three vertices, also concave ones, are divided into triangles. Two files
 //! with the same `f` lines need the same triangles, which [`CompatibleMesh::from_meshes`] finds.

@@ -15,10 +15,10 @@
 //! repeat its first point at the end.
 //!
 //! GeoJSON polygons are imported at any nesting depth of features and collections. The properties
-//! of a feature give its fill colour and its name, by which it is matched. Points and lines are ignored and reported as notes.
-//! Coordinates, even longitude and latitude, are used unchanged with x to the right and y up,
-//! except at the antimeridian (see [`antimeridian`]); numbers after the first two of a point are
-//! ignored.
+//! of a feature give its fill colour and its name, by which it is matched. Points and lines are
+//! ignored and reported as notes. Coordinates, even longitude and latitude, are used unchanged with
+//! x to the right and y up, except at the antimeridian (see [`antimeridian`]); numbers after the
+//! first two of a point are ignored.
 //!
 //! Within a polygon or list of rings the even-odd rule decides what is inside, so nested rings are
 //! holes regardless of orientation, and duplicate outlines count once. Polygons are united. Errors

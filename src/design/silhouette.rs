@@ -3,8 +3,9 @@
 //! In a picture with a transparent border, opacity separates the figure from the background.
 //! Otherwise grey levels, or distances from the colour of the background, are separated by Otsu's
 //! threshold (Otsu 1979, "A threshold selection method from gray-level histograms"), and the class
-//! (lighter or darker) of most border pixels is the background. The submodule [`reading`] chooses. The boundary runs where the opacity or grey level, interpolated between pixel
-//! centres, crosses the threshold, so anti-aliased edges give sub-pixel accuracy.
+//! (lighter or darker) of most border pixels is the background. The submodule [`reading`] chooses.
+//! The boundary runs where the opacity or grey level, interpolated between pixel centres, crosses
+//! the threshold, so anti-aliased edges give sub-pixel accuracy.
 //!
 //! A pixel is one unit, the origin is the picture's lower left corner and y points up. A figure
 //! that reaches the border of the picture is closed along this border. One threshold applies to the

@@ -5,8 +5,9 @@
 //! stands for all fixed costs. Files that store differences between frames are divided by their
 //! distinct frames, because the frames of a pause cost nearly nothing. In a GIF, a pixel is redrawn
 //! only when its colour has changed enough, and all pixels of a section's first frame are exact, so
-//! the frames that count follow others, after which pixels are redrawn as often as in the film. Vector animations are
-//! exported whole, because their size depends on when shapes appear, which no section shows.
+//! the frames that count follow others, after which pixels are redrawn as often as in the film.
+//! Vector animations are exported whole, because their size depends on when shapes appear, which no
+//! section shows.
 
 use std::path::Path;
 use std::time::Instant;
@@ -48,8 +49,8 @@ pub struct FilmCost {
 }
 
 impl FilmCost {
-    /// Estimates the cost of exporting a film as a file of the given kind, or as numbered PNG images
-    /// if there is none. `folder` receives temporary files, which the caller removes.
+    /// Estimates the cost of exporting a film as a file of the given kind, or as numbered PNG
+    /// images if there is none. `folder` receives temporary files, which the caller removes.
     ///
     /// # Errors
     /// [`ExportError`] if a section cannot be written, or the estimate is cancelled.

@@ -1,5 +1,5 @@
-//! Writes a film as a video by feeding raw frames to the ffmpeg on the PATH: MP4, WebM (VP9) and MOV
-//! (ProRes 4444). WebM and MOV can be transparent.
+//! Writes a film as a video by feeding raw frames to the ffmpeg on the PATH: MP4, WebM (VP9) and
+//! MOV (ProRes 4444). WebM and MOV can be transparent.
 //!
 //! Guarantees: BT.709 colours, which players assume; all frames of the film at its frame rate. The
 //! file replaces an earlier one only if ffmpeg succeeded and can decode as many frames from the
@@ -115,8 +115,8 @@ impl FfmpegJob<'_> {
         }
     }
 
-    /// Verifies the file independently of the exit status of the encoding run: has ffmpeg decode it,
-    /// and counts the frames. `words` are the messages of the encoding run.
+    /// Verifies the file independently of the exit status of the encoding run: has ffmpeg decode
+    /// it, and counts the frames. `words` are the messages of the encoding run.
     fn check(&self, count: usize, words: &FfmpegMessages) -> Result<(), ExportError> {
         self.progress.report(CHECKING_STAGE, DRAWN_FRACTION);
         let reason = match self.run(ffmpeg::decode_command(self.temporary), drop) {

@@ -44,7 +44,8 @@ pub enum TransitionNote {
     PaintIgnored,
     /// A page was scaled to fit into the page of the first design.
     PageFitted(FittedPage),
-    /// The trusses number their nodes differently; the nodes were paired by their bars and positions.
+    /// The trusses number their nodes differently; the nodes were paired by their bars and
+    /// positions.
     NodesRenumbered,
     /// Parts are not paired by their names, because there are too many of them.
     NamesIgnored,

@@ -54,7 +54,8 @@ pub fn examples(gallery: &[GalleryEntry]) -> Vec<&GalleryEntry> {
     EXAMPLES.iter().filter_map(entry).collect()
 }
 
-/// Shows the invitation at the start and after the project was closed, and closes it as soon as the user opens anything.
+/// Shows the invitation at the start and after the project was closed, and closes it as soon as the
+/// user opens anything.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     session: Res<Session>,

@@ -160,7 +160,7 @@ fn draw_choices(key: &PictureKey) -> Result<Vec<ReadingChoice>, SilhouetteError>
     Ok(drawn.collect())
 }
 
-/// Draws a silhouette; `None` only if the size is invalid, which it is not.
+/// Draws a silhouette; `None` if the image would have no pixels.
 fn draw(silhouette: &Design) -> Option<RgbaImage> {
     let size = PixelSize::new(SIDE_PX, SIDE_PX).ok()?;
     let figure = VectorFigure::of(silhouette, 0.0);

@@ -85,8 +85,8 @@ pub fn open(
     }
 }
 
-/// Returns the request for files that are opened together. A film needs two designs, so a single one
-/// asks for the second; a project cannot be combined with other files.
+/// Returns the request for files that are opened together. A film needs two designs, so a single
+/// one asks for the second; a project cannot be combined with other files.
 fn request_to_open(
     paths: &[PathBuf],
     drop: &mut DroppedDesign,

@@ -181,7 +181,7 @@ impl FilmFileFormat {
         }
     }
 
-    /// File type with the extension of this path; `None` if it is no film's.
+    /// Returns the film file type that has the extension of a path, if any.
     #[must_use]
     pub fn of_path(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();

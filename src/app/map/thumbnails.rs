@@ -35,8 +35,8 @@ pub struct MapThumbnails {
     pub designs: Arc<RgbaImage>,
 }
 
-/// Draws the thumbnails of the blends and of the designs, in the designs' own `colours` if they have
-/// any.
+/// Draws the thumbnails of the blends and of the designs, in the designs' own `colours` if they
+/// have any.
 ///
 /// # Errors
 /// None in practice: `SIDE_PX` is a valid image size.

@@ -215,9 +215,9 @@ impl<'g> NodeSearch<'g> {
     }
 }
 
-/// Returns the nodes of a graph so that each follows one of its neighbours, if it has any before it.
-/// Each connected component begins with a node of the smallest class; `class_size` returns the size
-/// of the class of a node.
+/// Returns the nodes of a graph so that each follows one of its neighbours, if it has any before
+/// it. Each connected component begins with a node of the smallest class; `class_size` returns the
+/// size of the class of a node.
 fn search_order(graph: &TrussGraph, class_size: impl Fn(usize) -> usize) -> Vec<usize> {
     let mut starts: Vec<usize> = (0..graph.places.len()).collect();
     starts.sort_by_key(|&node| class_size(node));

@@ -1,8 +1,8 @@
 //! Polylines with a width, and strokes along lines.
 //!
 //! A band of constant width and a stroke are outlined by `tiny-skia`; a band whose width changes
-//! consists of one trapezium for each chord, which meet in mitres. `tiny-skia` computes in `f32`, so the points are first
-//! moved to the origin and scaled.
+//! consists of one trapezium for each chord, which meet in mitres. `tiny-skia` computes in `f32`,
+//! so the points are first moved to the origin and scaled.
 
 use super::curve::DxfCurve;
 use crate::design::flatten::{Flattener, TooManyPoints};

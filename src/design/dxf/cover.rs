@@ -1,5 +1,5 @@
-//! Cuts out of areas, lines and letters what later areas cover, so that the order of the paint layers
-//! does not matter where they overlap.
+//! Cuts out of areas, lines and letters what later areas cover, so that the order of the paint
+//! layers does not matter where they overlap.
 //!
 //! DXF programs draw entities one over the other. Paint layers hold all areas of one layer and
 //! colour and are stacked by containment, with lines above areas and letters above lines. Both show
@@ -16,8 +16,8 @@ use crate::geometry::Bounds;
 use i_overlay::core::overlay_rule::OverlayRule;
 
 /// Maximum work for all shapes (resource limit: a few seconds): one unit for each area with which a
-/// shape is compared, and [`CLIPPING_WORK`] for each point of a shape or area that is clipped. Later
-/// shapes stay whole.
+/// shape is compared, and [`CLIPPING_WORK`] for each point of a shape or area that is clipped.
+/// Later shapes stay whole.
 const MAX_WORK: usize = 200_000_000;
 
 /// Work for a point of an outline that is clipped, compared with that for a comparison of two

@@ -303,8 +303,8 @@ impl DxfReader {
     }
 }
 
-/// Sorts entities in the order of drawing: by their handles, some of which a table replaces. Without
-/// such handles, they are drawn in the order of the file.
+/// Sorts entities in the order of drawing: by their handles, some of which a table replaces.
+/// Without such handles, they are drawn in the order of the file.
 fn sort_for_drawing(entities: &mut [DxfEntity], sort_handles: &HashMap<u64, u64>) {
     let replaced = |entity: &DxfEntity| sort_handles.get(&entity.handle?).copied();
     let has_all = entities.iter().all(|entity| entity.handle.is_some());

@@ -210,7 +210,8 @@ pub(super) struct ReplacedFill {
     pub colour: Option<Rgb>,
 }
 
-/// Returns how the fill of a hatch is replaced; `None` for a solid fill in the colour of the entity.
+/// Returns how the fill of a hatch is replaced; `None` for a solid fill in the colour of the
+/// entity.
 pub(super) fn replaced_fill(record: &DxfRecord) -> Result<Option<ReplacedFill>, EntityFault> {
     if record.integer(450)? != 0 {
         let colours = record.pairs.iter().filter(|pair| pair.code == 421);

@@ -124,8 +124,8 @@ impl InnerContent<'_> {
         }
     }
 
-    /// Marks the pieces that areas cover in part, and those of which areas cover a hole. Returns for
-    /// each of the other pieces the styles of the areas that cover it.
+    /// Marks the pieces that areas cover in part, and those of which areas cover a hole. Returns
+    /// for each of the other pieces the styles of the areas that cover it.
     fn find_areas(&self, pieces: &[(&Region, Bounds)], hides: &mut [bool]) -> Vec<Vec<usize>> {
         let areas: Vec<(&OutlinedArea, Bounds)> = (self.areas.iter())
             .filter_map(|area| Some((area, Bounds::of(area.rings.iter().flatten().copied())?)))

@@ -264,8 +264,8 @@ impl SheetPainter {
         hiding
     }
 
-    /// Returns the outlines, areas, lines and letters of each layer and paint, in the order in which
-    /// the drawing uses them first. Also returns notes on what others cover.
+    /// Returns the outlines, areas, lines and letters of each layer and paint, in the order in
+    /// which the drawing uses them first. Also returns notes on what others cover.
     fn groups(&self) -> Result<(StyledGroups, Vec<DxfNote>), TooManyPoints> {
         let mut parts: BTreeMap<GroupKey, GroupParts> = BTreeMap::new();
         for OutlineRing { points, style, .. } in &self.sheet.rings {

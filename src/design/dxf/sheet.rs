@@ -150,7 +150,8 @@ impl Sheet {
     }
 }
 
-/// Number of rings with nearly the same bounding box with which a ring is compared (resource limit).
+/// Number of rings with nearly the same bounding box with which a ring is compared (resource
+/// limit).
 const MAX_COMPARED: usize = 8;
 
 /// Gives rings that are everywhere at most `within` apart the same points, so that they count as

@@ -1,11 +1,12 @@
 //! Makes outlines whole at the antimeridian, longitude 180°, where a map of longitudes has its cut
 //! (Butler et al., RFC 7946, 2016, section 3.1.9).
 //!
-//! A ring with a step of more than 180° in longitude takes the shorter way, across the antimeridian.
-//! Pieces that a file has split there, as the RFC asks, share an edge along it. In both cases the
-//! map is cut elsewhere: in the middle of the widest range of longitudes without any outline, so
-//! that all pieces of an island lie next to each other. Longitudes then continue beyond ±180°. A
-//! map that reaches around the globe has no such range; only rings with a step are changed there.
+//! A ring with a step of more than 180° in longitude takes the shorter way, across the
+//! antimeridian. Pieces that a file has split there, as the RFC asks, share an edge along it. In
+//! both cases the map is cut elsewhere: in the middle of the widest range of longitudes without any
+//! outline, so that all pieces of an island lie next to each other. Longitudes then continue beyond
+//! ±180°. A map that reaches around the globe has no such range; only rings with a step are changed
+//! there.
 //!
 //! A ring around a pole is not closed by its longitudes. If the file does not close it along the
 //! pole, it is closed there. Rings without these features do not change.

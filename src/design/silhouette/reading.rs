@@ -127,8 +127,8 @@ impl<'a> Readings<'a> {
         }
     }
 
-    /// Returns whether all of the picture's border is transparent, so that the opaque pixels are the
-    /// figure beyond doubt.
+    /// Returns whether all of the picture's border is transparent, so that the opaque pixels are
+    /// the figure beyond doubt.
     fn is_opacity_clear(&self) -> bool {
         self.has_opacity && self.opaque[1] == 0
     }

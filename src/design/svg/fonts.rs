@@ -89,8 +89,8 @@ impl FontLookup {
     }
 }
 
-/// Returns the style that a font should have and the face found for it lacks, if any. Browsers slant
-/// and thicken letters themselves in this case.
+/// Returns the style that a font should have and the face found for it lacks, if any. Browsers
+/// slant and thicken letters themselves in this case.
 fn missing_style(font: &Font, id: ID, fonts: &Database) -> Option<&'static str> {
     let face = fonts.face(id)?;
     let is_slanted = font.style() != FontStyle::Normal && face.style == Style::Normal;

@@ -48,7 +48,8 @@ pub(super) fn uncoloured_layers(shapes: Vec<SvgShape>, page: DVec2) -> Vec<Paint
     uncoloured.collect()
 }
 
-/// Merges shapes of equal paint and name into as few shapes as their order allows. `page` is the size of the drawing.
+/// Merges shapes of equal paint and name into as few shapes as their order allows. `page` is the
+/// size of the drawing.
 pub(super) fn merge_shapes(shapes: Vec<SvgShape>, page: DVec2) -> Vec<SvgShape> {
     let mut stack = PaintStack {
         layers: Vec::new(),

@@ -50,7 +50,8 @@ impl SvgShape {
         self.rings.iter().map(Vec::len).sum()
     }
 
-    /// Splits the shape into its fill, if visible, and its attached stroke, if any, the lower first.
+    /// Splits the shape into its fill, if visible, and its attached stroke, if any, the lower
+    /// first.
     pub(super) fn split_stroke(mut self) -> impl Iterator<Item = Self> {
         let edge = self.stroke.take();
         let is_stroke_below = edge.as_ref().is_some_and(|edge| edge.line.is_below_fill);

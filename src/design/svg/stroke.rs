@@ -27,8 +27,9 @@ pub(super) fn is_closed(path: &Path) -> bool {
     !is_open
 }
 
-/// Returns the stroke of a path in page units, where `t` maps the path to the page, or `None` if the path has no stroke, the stroke has
-/// dashes, or the transform makes the width depend on the direction.
+/// Returns the stroke of a path in page units, where `t` maps the path to the page, or `None` if
+/// the path has no stroke, the stroke has dashes, or the transform makes the width depend on the
+/// direction.
 pub(super) fn uniform_stroke(path: &Path, t: Transform, paint: Paint) -> Option<StrokeStyle> {
     let stroke = path
         .stroke()

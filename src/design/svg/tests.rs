@@ -1,4 +1,5 @@
-//! Tests of the SVG importer: silhouettes, strokes, text, paint layers, selected elements and notes.
+//! Tests of the SVG importer: silhouettes, strokes, text, paint layers, selected elements and
+//! notes.
 
 use super::*;
 use crate::colour::{Paint, Rgb};

@@ -1,10 +1,10 @@
 //! Writes a vector animation as a Lottie animation (JSON): format 1.0 of the Lottie Animation
 //! Community, in the form written by Bodymovin 5.7.
 //!
-//! Shapes are animated within a precomposition that has one frame for each t that the film shows. Its
-//! time is remapped to that of the film, so that pauses and the way back need no shape keyframes.
-//! Limits of the format: repeating gradients are drawn once, and radial gradients that are not
-//! uniformly scaled are drawn circular.
+//! Shapes are animated within a precomposition that has one frame for each t that the film shows.
+//! Its time is remapped to that of the film, so that pauses and the way back need no shape
+//! keyframes. Limits of the format: repeating gradients are drawn once, and radial gradients that
+//! are not uniformly scaled are drawn circular.
 //!
 //! Plays in lottie-web, rlottie and ThorVG, with the same pictures (`tests/motion`). rlottie shows
 //! the precomposition at whole frames only, and each frame of the film is one of these.
@@ -30,8 +30,8 @@ use format::{
     round_number,
 };
 
-/// Maximum number of frames at which shape keyframes may lie (resource limit: bounds the size of the
-/// file). Longer films have keyframes at every second frame, every third and so on.
+/// Maximum number of frames at which shape keyframes may lie (resource limit: bounds the size of
+/// the file). Longer films have keyframes at every second frame, every third and so on.
 const MAX_KEYED_FRAMES: usize = 480;
 
 /// Delay of the remapped time, in frames (tolerance: players that round times down to whole frames

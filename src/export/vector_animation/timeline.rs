@@ -4,7 +4,8 @@
 use super::super::film_spec::FilmSpec;
 use super::keyframes::fewest_keys;
 
-/// Maximum deviation of linear knots from the t of a frame, as a fraction of the range of t (tolerance: a tenth of a pixel on a path of 1,000 pixels).
+/// Maximum deviation of linear knots from the t of a frame, as a fraction of the range of t
+/// (tolerance: a tenth of a pixel on a path of 1,000 pixels).
 const TIME_TOLERANCE: f64 = 1e-4;
 
 /// The t of each frame of a film, and how the film continues at its end.

@@ -17,7 +17,8 @@ pub(super) enum PixelFormat {
     Yuv420,
     /// As above, then the opacity of all pixels.
     Yuva420,
-    /// Luma and two chroma samples of all pixels, 10 bits each, in 2 bytes with the lower one first.
+    /// Luma and two chroma samples of all pixels, 10 bits each, in 2 bytes with the lower one
+    /// first.
     Yuv444TenBit,
     /// As above, then the opacity of all pixels.
     Yuva444TenBit,
@@ -34,8 +35,8 @@ impl PixelFormat {
         }
     }
 
-    /// Converts an image. ffmpeg could convert instead, but on a single thread, and after more bytes
-    /// have passed through the pipe.
+    /// Converts an image. ffmpeg could convert instead, but on a single thread, and after more
+    /// bytes have passed through the pipe.
     pub(super) fn planes(self, mut image: RgbaImage) -> Vec<u8> {
         let opacity: Vec<u8> = match self {
             Self::Yuv420 | Self::Yuv444TenBit => Vec::new(),

@@ -8,8 +8,8 @@ use crate::app::session::transition_problem::TransitionProblem;
 use crate::project::Project;
 use crate::transition::TransitionMethod;
 
-/// Maximum number of segments that are kept after they have left the stage, so that undo brings them
-/// back at once (resource limit: each holds a mesh and its motion).
+/// Maximum number of segments that are kept after they have left the stage, so that undo brings
+/// them back at once (resource limit: each holds a mesh and its motion).
 const MAX_EARLIER: usize = 16;
 
 /// Films that were on the stage before.

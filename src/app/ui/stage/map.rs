@@ -256,8 +256,8 @@ fn draw_marker(
     painter.circle_filled(at, 2.5, ink);
 }
 
-/// Returns the colour of the design with the index `design`: the mean of its own colours or, without
-/// any, its fill colour.
+/// Returns the colour of the design with the index `design`: the mean of its own colours or,
+/// without any, its fill colour.
 fn colour_of(state: &UiState, pictures: &MapPictures, design: usize) -> Color32 {
     let mut weights = vec![0.0; pictures.weights().len()];
     weights[design] = 1.0;

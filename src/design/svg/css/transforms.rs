@@ -116,7 +116,8 @@ impl TransformReader {
         })
     }
 
-    /// Reads the arguments of `matrix` and `matrix3d`. Returns `None` for a matrix with perspective.
+    /// Reads the arguments of `matrix` and `matrix3d`. Returns `None` for a matrix with
+    /// perspective.
     fn matrix(&self, arguments: &[&str]) -> Option<DMat4> {
         let numbers = arguments.iter().map(|text| self.number(text));
         match numbers.collect::<Option<Vec<f64>>>()?.as_slice() {
@@ -156,7 +157,8 @@ impl TransformReader {
         })
     }
 
-    /// Reads the origin: one to three keywords or lengths, x before y unless keywords say otherwise.
+    /// Reads the origin: one to three keywords or lengths, x before y unless keywords say
+    /// otherwise.
     fn origin(&self, text: &str) -> Option<DVec2> {
         let lower = text.to_ascii_lowercase();
         let words = components(&lower);

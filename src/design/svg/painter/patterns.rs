@@ -79,8 +79,8 @@ impl SvgPainter<'_> {
 }
 
 /// Returns the group with the content of a pattern, and the map from its coordinates to the page,
-/// for the map `content` of the tile. If the content is scaled to a box, `usvg` puts it into a group
-/// without id and does not pass the transform of this group on to the content.
+/// for the map `content` of the tile. If the content is scaled to a box, `usvg` puts it into a
+/// group without id and does not pass the transform of this group on to the content.
 fn scaled_content(pattern: &Pattern, content: Transform) -> (&Group, Transform) {
     match pattern.root().children() {
         [Node::Group(scaled)] if scaled.id().is_empty() && !scaled.transform().is_identity() => {

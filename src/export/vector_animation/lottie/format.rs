@@ -1,9 +1,10 @@
 //! Objects of the Lottie format.
 //!
 //! Guarantees: the keys of each object are written in the order of the fields, which is that of
-//! Bodymovin, with the type `ty` first in each shape. Players that parse a file in one pass (rlottie,
-//! lottie-android) need to know the type of a shape before its other keys, and the number of colour
-//! stops of a gradient before its colours; they skip a shape whose keys come in another order.
+//! Bodymovin, with the type `ty` first in each shape. Players that parse a file in one pass
+//! (rlottie, lottie-android) need to know the type of a shape before its other keys, and the number
+//! of colour stops of a gradient before its colours; they skip a shape whose keys come in another
+//! order.
 
 use serde::Serialize;
 use serde_json::Number;
