@@ -62,6 +62,11 @@ fn with_rectangles(count: usize, has_hole: bool) -> (TempDir, HeadlessWindow) {
         path
     };
     let files: Vec<PathBuf> = (0..count).map(file).collect();
+    (folder, with_map_of(files))
+}
+
+/// A window that shows the map of these files, with a film that stands still.
+fn with_map_of(files: Vec<PathBuf>) -> HeadlessWindow {
     let mut window = HeadlessWindow::new();
     window.send(Intent::Open(files));
     window.wait();
@@ -69,7 +74,7 @@ fn with_rectangles(count: usize, has_hole: bool) -> (TempDir, HeadlessWindow) {
     // The film plays as soon as it is opened, and the marker would follow it.
     window.send(Intent::TogglePlay);
     window.send(Intent::SeekStart);
-    (folder, with_map(window))
+    with_map(window)
 }
 
 /// Weights of the designs at the marker.
@@ -362,10 +367,7 @@ fn the_map_keeps_the_colours_of_the_drawings() {
     };
     let files = [("a.svg", "#c00000", 40), ("b.svg", "#00c000", 90)];
     let files = files.map(|(name, colour, width)| file(name, colour, width));
-    let mut window = HeadlessWindow::new();
-    window.send(Intent::Open(files.into()));
-    window.wait();
-    let mut window = with_map(window);
+    let mut window = with_map_of(files.into());
     let shows = |window: &mut HeadlessWindow, design: usize, colour: [u8; 4]| {
         let site = map_view(window).pictures().expect("a map").map().sites()[design];
         window.send(Intent::MoveMarker(site));
