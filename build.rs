@@ -5,6 +5,7 @@
 //! flags fold identical functions and pack relocations.
 
 use std::env::{self, VarError};
+use std::path::Path;
 use std::process::Command;
 
 /// Linker flag that merges identical functions; it saves 4.6 MB of 80.
@@ -30,7 +31,8 @@ fn main() {
 
 /// Returns whether this is a native release build with the linker bundled with Rust.
 ///
-/// Only that linker is known to support both flags.
+/// Only that linker is known to support both flags. The packages of some Linux distributions come
+/// without it.
 fn uses_bundled_linker() -> bool {
     /// Target triple for which the flags were tested.
     const LINUX: &str = "x86_64-unknown-linux-gnu";
@@ -42,6 +44,24 @@ fn uses_bundled_linker() -> bool {
         && is("PROFILE", "release")
         && is_unset("RUSTC_LINKER")
         && is_unset("CARGO_ENCODED_RUSTFLAGS")
+        && has_bundled_linker(LINUX)
+}
+
+/// Returns whether the Rust toolchain includes its own linker for a target.
+fn has_bundled_linker(target: &str) -> bool {
+    let rustc = env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let output = Command::new(rustc).args(["--print", "sysroot"]).output();
+    let Some(sysroot) = output
+        .ok()
+        .and_then(|output| String::from_utf8(output.stdout).ok())
+    else {
+        return false;
+    };
+    Path::new(sysroot.trim())
+        .join("lib/rustlib")
+        .join(target)
+        .join("bin/gcc-ld/ld.lld")
+        .exists()
 }
 
 /// Returns the major and minor version of the C library of this machine, if it is glibc.
