@@ -92,7 +92,7 @@ pub(super) fn paint_tree(
             bitmap_glyphs: 0,
             lost: LostFeatures::default(),
         },
-        base: Transform::identity(),
+        frame: Transform::identity(),
         group_name: String::new(),
         element: None,
         is_drawn: false,
@@ -135,9 +135,9 @@ pub(super) struct SvgPainter<'b> {
     pub(super) flattener: Flattener,
     pub(super) options: &'b SvgReadOptions<'b>,
     pub(super) painted: PaintedDrawing,
-    /// Transform from the coordinates of the current tree (the drawing, or the content of a mask, a
-    /// pattern or an embedded drawing) to the page, y down.
-    pub(super) base: Transform,
+    /// Transform from the coordinates of the current group to the page, y down. The absolute
+    /// transforms of `usvg` are not used: they are wrong in patterns and colour glyphs.
+    pub(super) frame: Transform,
     /// Name of the innermost group that has one.
     group_name: String,
     /// Innermost element of the source document that is being painted.
@@ -167,7 +167,22 @@ impl SvgPainter<'_> {
         if opacity == 0.0 {
             return Ok(());
         }
-        let frame = self.base.pre_concat(group.abs_transform());
+        let outer = self.frame;
+        self.frame = outer.pre_concat(group.transform());
+        let painted = self.group_content(group, opacity, clip, is_within);
+        self.frame = outer;
+        painted
+    }
+
+    /// Converts the children of a group with a certain opacity to shapes.
+    fn group_content(
+        &mut self,
+        group: &Group,
+        opacity: f64,
+        clip: Option<&WindingRings>,
+        is_within: bool,
+    ) -> Result<(), SvgError> {
+        let frame = self.frame;
         let own = match group.clip_path() {
             Some(path) => {
                 let inside = self.clip(path, frame)?;
@@ -232,7 +247,8 @@ impl SvgPainter<'_> {
                 Node::Path(path) if is_within => self.path(path, clip)?,
                 Node::Text(text) if is_within => self.text(text, clip)?,
                 Node::Image(image) if is_within && image.is_visible() => match image.kind() {
-                    ImageKind::SVG(tree) => self.embedded(tree, image.abs_transform(), clip)?,
+                    ImageKind::SVG(tree) => self.embedded(tree, clip)?,
+                    _ if self.is_in_text => self.painted.bitmap_glyphs += 1,
                     _ => self.picture(image, clip),
                 },
                 Node::Path(_) | Node::Image(_) | Node::Text(_) => {}
@@ -285,41 +301,36 @@ impl SvgPainter<'_> {
         Ok(std::mem::replace(&mut self.painted.shapes, below))
     }
 
-    /// Converts the content of a mask, a pattern or an embedded drawing to shapes. `base` maps its
+    /// Converts the content of a mask, a pattern or an embedded drawing to shapes. `frame` maps its
     /// coordinates to the page. Adds nothing if too many are inside each other.
     pub(super) fn inner_tree(
         &mut self,
         root: &Group,
-        base: Transform,
+        frame: Transform,
         clip: Option<&WindingRings>,
     ) -> Result<(), SvgError> {
         if self.depth == MAX_DEPTH {
             self.approximate("content nested in patterns or masks", "left out");
             return Ok(());
         }
-        let outer = std::mem::replace(&mut self.base, base);
+        let outer = std::mem::replace(&mut self.frame, frame);
         let was_in_text = std::mem::take(&mut self.is_in_text);
         self.depth += 1;
         let painted = self.group(root, clip, true);
         self.depth -= 1;
         self.is_in_text = was_in_text;
-        self.base = outer;
+        self.frame = outer;
         painted
     }
 
     /// Converts an embedded drawing to shapes.
-    fn embedded(
-        &mut self,
-        tree: &usvg::Tree,
-        place: Transform,
-        clip: Option<&WindingRings>,
-    ) -> Result<(), SvgError> {
-        let base = self.base.pre_concat(place);
+    fn embedded(&mut self, tree: &usvg::Tree, clip: Option<&WindingRings>) -> Result<(), SvgError> {
+        let frame = self.frame;
         let size = page_of(tree);
-        let page = self.rectangle([0.0, 0.0, size.x, size.y], base);
+        let page = self.rectangle([0.0, 0.0, size.x, size.y], frame);
         let page = clip_rings(page, clip);
         let was_embedded = std::mem::replace(&mut self.is_embedded, true);
-        let painted = self.inner_tree(tree.root(), base, Some(&page));
+        let painted = self.inner_tree(tree.root(), frame, Some(&page));
         self.is_embedded = was_embedded;
         painted
     }
@@ -336,8 +347,14 @@ impl SvgPainter<'_> {
         for node in group.children() {
             match node {
                 Node::Path(path) => self.path(path, clip)?,
-                Node::Group(group) => self.glyphs(group, clip)?,
-                Node::Image(_) | Node::Text(_) => self.painted.bitmap_glyphs += 1,
+                // A glyph with colours of its own.
+                Node::Group(glyph) => {
+                    let was_embedded = std::mem::replace(&mut self.is_embedded, true);
+                    let painted = self.group(glyph, clip, true);
+                    self.is_embedded = was_embedded;
+                    painted?;
+                }
+                Node::Image(_) | Node::Text(_) => {}
             }
         }
         Ok(())
@@ -367,11 +384,11 @@ impl SvgPainter<'_> {
                 continue;
             };
             let rings = match is_fill {
-                true => self.filled_area(path, self.base)?,
+                true => self.filled_area(path, self.frame)?,
                 false => self.stroked_area(path)?,
             };
             let first = self.painted.shapes.len();
-            self.add_painted(path, clip_rings(rings, clip), source)?;
+            self.add_painted(clip_rings(rings, clip), source)?;
             for shape in &mut self.painted.shapes[first..] {
                 shape.is_stroke = !is_fill;
             }
@@ -379,24 +396,19 @@ impl SvgPainter<'_> {
         Ok(())
     }
 
-    /// Adds the area `rings` of a path with a paint.
-    fn add_painted(
-        &mut self,
-        path: &Path,
-        rings: WindingRings,
-        source: &PaintSource,
-    ) -> Result<(), SvgError> {
+    /// Adds the area `rings` of a path in the current group with a paint.
+    fn add_painted(&mut self, rings: WindingRings, source: &PaintSource) -> Result<(), SvgError> {
         let (paint, gradient) = match source {
             PaintSource::Solid(paint) => (*paint, None),
             PaintSource::Gradient(gradient, mean) => {
-                (*mean, Some(gradient.transformed(self.page_from_path(path))))
+                (*mean, Some(gradient.transformed(self.page_from_path())))
             }
             PaintSource::DegenerateGradient(mean) => {
                 self.approximate("gradient without extent", "replaced by its mean colour");
                 (*mean, None)
             }
             PaintSource::Pattern(pattern, opacity) => {
-                return self.add_pattern(path, rings, pattern, *opacity);
+                return self.add_pattern(rings, pattern, *opacity);
             }
         };
         self.add_shape(rings, paint, gradient);
@@ -423,10 +435,10 @@ impl SvgPainter<'_> {
         }
     }
 
-    /// Returns the affine map from the coordinates of a path to the page, y up.
-    fn page_from_path(&self, path: &Path) -> DAffine2 {
+    /// Returns the affine map from the coordinates of the current group to the page, y up.
+    fn page_from_path(&self) -> DAffine2 {
         let flip_y = DAffine2::from_cols_array(&[1.0, 0.0, 0.0, -1.0, 0.0, self.page.y]);
-        flip_y * affine(self.base.pre_concat(path.abs_transform()))
+        flip_y * affine(self.frame)
     }
 
     /// Tries to add a path as one shape with an attached stroke; returns whether it was added. The
@@ -440,8 +452,7 @@ impl SvgPainter<'_> {
     ) -> Result<bool, SvgError> {
         let is_pattern = matches!(fill, Some(PaintSource::Pattern(..)));
         let is_plain = !is_pattern && !self.is_non_scaling(path) && stroke::is_closed(path);
-        let transform = self.base.pre_concat(path.abs_transform());
-        let line = stroke::uniform_stroke(path, transform, stroke).filter(|_| is_plain);
+        let line = stroke::uniform_stroke(path, self.frame, stroke).filter(|_| is_plain);
         let Some(line) = line else {
             return Ok(false);
         };
@@ -460,7 +471,7 @@ impl SvgPainter<'_> {
         };
         let first = self.painted.shapes.len();
         match fill {
-            Some(fill) => self.add_painted(path, cleaned, fill)?,
+            Some(fill) => self.add_painted(cleaned, fill)?,
             None => self.painted.shapes.push(SvgShape {
                 rings: cleaned,
                 paint: invisible,

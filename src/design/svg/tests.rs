@@ -260,6 +260,16 @@ fn the_content_of_a_pattern_is_scaled_to_the_box_of_the_shape() {
 }
 
 #[test]
+fn the_view_box_of_a_pattern_is_scaled_to_its_tile() {
+    let body = r##"<pattern id="p" patternUnits="userSpaceOnUse" width="20" height="20"
+        viewBox="0 0 10 10"><rect width="5" height="10" fill="#00ff00"/></pattern>
+        <rect width="40" height="40" fill="url(#p)"/>"##;
+    let found = stroked(body, None).expect("an outline");
+    assert_near(found.regions.area(), 800.0);
+    assert_near(found.regions.bounds().max.x, 30.0);
+}
+
+#[test]
 fn the_content_of_a_pattern_starts_at_the_corner_of_its_tile() {
     let body = r##"<pattern id="p" patternUnits="userSpaceOnUse" x="5" y="2" width="20" height="20">
         <rect width="10" height="20" fill="#00ff00"/></pattern>
@@ -364,6 +374,21 @@ fn repairs_and_omissions_are_reported() {
     assert!(words[1].starts_with("the font Nonesuch is not installed"));
     let clean = super::read(&page(r#"<circle cx="9" cy="9" r="5"/>"#), None, &options);
     assert_eq!(clean.expect("a disc").notes, []);
+}
+
+/// Roboto lacks this arrow. Whether another font has it depends on the machine.
+#[test]
+fn characters_that_their_font_lacks_are_reported() {
+    let body = "<text x='10' y='60' font-family='Roboto' font-size='40'>D\u{2b8f}</text>";
+    let options = ImportOptions::default();
+    let found = super::read(&page(body), None, &options).expect("a letter");
+    let words: Vec<_> = found.notes.iter().map(ToString::to_string).collect();
+    assert_eq!(words.len(), 1, "{words:?}");
+    let is_replaced = words[0].starts_with("1 character is drawn in another font");
+    assert!(
+        is_replaced || words[0].starts_with("1 character was ignored"),
+        "{words:?}"
+    );
 }
 
 #[test]

@@ -16,34 +16,34 @@ impl SvgPainter<'_> {
         frame: Transform,
     ) -> Result<WindingRings, SvgError> {
         let mut parts = Vec::new();
-        let base = frame.pre_concat(clip.transform());
-        self.clip_group(clip.root(), base, &mut parts)?;
+        self.clip_group(clip.root(), frame.pre_concat(clip.transform()), &mut parts)?;
         let outer = clip.clip_path().map(|outer| self.clip(outer, frame));
         Ok(clip_rings(union(parts), outer.transpose()?.as_ref()))
     }
 
-    /// Appends the areas of the filled paths in a group of a clip path. `base` maps the clip path
-    /// to the page of the drawing.
+    /// Appends the areas of the filled paths in a group of a clip path. `frame` maps the coordinates
+    /// around the group to the page.
     fn clip_group(
         &mut self,
         group: &Group,
-        base: Transform,
+        frame: Transform,
         parts: &mut Vec<WindingRings>,
     ) -> Result<(), SvgError> {
+        let frame = frame.pre_concat(group.transform());
         for node in group.children() {
             match node {
-                Node::Path(path) if is_filled(path) => parts.push(self.filled_area(path, base)?),
+                Node::Path(path) if is_filled(path) => parts.push(self.filled_area(path, frame)?),
                 Node::Path(_) | Node::Image(_) => {}
                 Node::Group(inner) => {
                     let mut own = Vec::new();
-                    self.clip_group(inner, base, &mut own)?;
-                    let inner_base = base.pre_concat(inner.abs_transform());
-                    let inside = inner.clip_path().map(|clip| self.clip(clip, inner_base));
+                    self.clip_group(inner, frame, &mut own)?;
+                    let inner_frame = frame.pre_concat(inner.transform());
+                    let inside = inner.clip_path().map(|clip| self.clip(clip, inner_frame));
                     parts.push(clip_rings(union(own), inside.transpose()?.as_ref()));
                 }
                 Node::Text(text) => {
                     let was_in_text = std::mem::replace(&mut self.is_in_text, true);
-                    self.clip_group(text.flattened(), base, parts)?;
+                    self.clip_group(text.flattened(), frame, parts)?;
                     self.is_in_text = was_in_text;
                 }
             }
@@ -51,14 +51,14 @@ impl SvgPainter<'_> {
         Ok(())
     }
 
-    /// Returns the filled area of a path on the page, y up, by the path's own fill rule. `base` is
-    /// applied after the path's transform.
+    /// Returns the filled area of a path on the page, y up, by the path's own fill rule. `frame` maps
+    /// the coordinates of the path to the page.
     pub(in crate::design::svg) fn filled_area(
         &mut self,
         path: &Path,
-        base: Transform,
+        frame: Transform,
     ) -> Result<WindingRings, SvgError> {
-        let rings = self.rings(path.data(), base.pre_concat(path.abs_transform()))?;
+        let rings = self.rings(path.data(), frame)?;
         let index = match path.fill().map(usvg::Fill::rule) {
             Some(usvg::FillRule::EvenOdd) => 1,
             _ => 0,
@@ -80,7 +80,7 @@ impl SvgPainter<'_> {
         path: &Path,
     ) -> Result<Option<WindingRings>, SvgError> {
         let before = self.flattener.clone();
-        let rings = self.rings(path.data(), self.base.pre_concat(path.abs_transform()))?;
+        let rings = self.rings(path.data(), self.frame)?;
         let rule = match path.fill().map(usvg::Fill::rule) {
             Some(usvg::FillRule::NonZero) => FillRule::NonZero,
             // A path without a fill has no fill rule; the even-odd rule keeps all its rings, even
@@ -101,7 +101,7 @@ impl SvgPainter<'_> {
         &mut self,
         path: &Path,
     ) -> Result<WindingRings, SvgError> {
-        let transform = self.base.pre_concat(path.abs_transform());
+        let transform = self.frame;
         let Some(stroke) = path.stroke() else {
             return Ok(Vec::new());
         };

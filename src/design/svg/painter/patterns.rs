@@ -8,7 +8,7 @@ use crate::design::svg::opacity_groups::apply_group_opacity;
 use crate::design::svg::resolved_paint::affine;
 use crate::design::svg::shape::SvgShape;
 use crate::geometry::{Bounds, DAffine2, DVec2};
-use usvg::{Group, Node, Opacity, Path, Pattern, Transform};
+use usvg::{Opacity, Pattern};
 
 /// Maximum number of tiles that are drawn (resource limit: fine hatchings would become thousands of
 /// parts).
@@ -22,29 +22,27 @@ const MAX_POINTS: usize = 200_000;
 const MAX_GRADIENT_TILES: usize = 64;
 
 impl SvgPainter<'_> {
-    /// Adds the area `rings` of a path, painted with a pattern. A pattern with too many tiles is
+    /// Adds the area `rings` of a path in the current group, painted with a pattern. A pattern with too many tiles is
     /// replaced by its mean colour.
     pub(in crate::design::svg) fn add_pattern(
         &mut self,
-        path: &Path,
         rings: WindingRings,
         pattern: &Pattern,
         opacity: Opacity,
     ) -> Result<(), SvgError> {
-        let frame = self.base.pre_concat(path.abs_transform());
-        let base = frame.pre_concat(pattern.transform());
+        let frame = self.frame.pre_concat(pattern.transform());
         let rect = pattern.rect();
         let [x, y, w, h] = [rect.x(), rect.y(), rect.width(), rect.height()].map(f64::from);
         // The content is placed relative to the corner of the tile.
-        let content = base.pre_translate(rect.x(), rect.y());
+        let content = frame.pre_translate(rect.x(), rect.y());
         let tile = self.rectangle([0.0, 0.0, w, h], content);
-        let (root, content) = scaled_content(pattern, content);
+        let root = pattern.root();
         let shapes = self.collect(|painter| painter.inner_tree(root, content, Some(&tile)))?;
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
             return Ok(());
         };
         let flip_y = DAffine2::from_cols_array(&[1.0, 0.0, 0.0, -1.0, 0.0, self.page.y]);
-        let offsets = tile_offsets(flip_y * affine(base), [x, y, w, h], &bounds);
+        let offsets = tile_offsets(flip_y * affine(frame), [x, y, w, h], &bounds);
         let points: usize = shapes.iter().map(SvgShape::points).sum();
         let offsets = offsets.filter(|offsets| points * offsets.len() <= MAX_POINTS);
         let mut shapes: Vec<_> = shapes
@@ -75,18 +73,6 @@ impl SvgPainter<'_> {
             self.add_shape(shape.rings, shape.paint, shape.gradient);
         }
         Ok(())
-    }
-}
-
-/// Returns the group with the content of a pattern, and the map from its coordinates to the page,
-/// for the map `content` of the tile. If the content is scaled to a box, `usvg` puts it into a
-/// group without id and does not pass the transform of this group on to the content.
-fn scaled_content(pattern: &Pattern, content: Transform) -> (&Group, Transform) {
-    match pattern.root().children() {
-        [Node::Group(scaled)] if scaled.id().is_empty() && !scaled.transform().is_identity() => {
-            (scaled, content.pre_concat(scaled.transform()))
-        }
-        _ => (pattern.root(), content),
     }
 }
 

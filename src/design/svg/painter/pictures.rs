@@ -28,9 +28,8 @@ impl SvgPainter<'_> {
         };
         self.approximate("picture", "replaced by a rectangle in its mean colour");
         let size = image.size();
-        let place = self.base.pre_concat(image.abs_transform());
         let rectangle = [0.0, 0.0, size.width().into(), size.height().into()];
-        let rings = self.rectangle(rectangle, place);
+        let rings = self.rectangle(rectangle, self.frame);
         self.add_shape(clip_rings(rings, clip), mean, None);
     }
 
