@@ -57,6 +57,8 @@ pub enum ImportNote {
     Font(String),
     /// Number of ignored characters that have no outline in any font.
     Characters(usize),
+    /// Number of characters that are drawn in another font, because theirs lacks them.
+    ReplacedCharacters(usize),
     /// Feature of a drawing that was ignored or replaced by something simpler.
     LostFeature {
         /// Name of the feature: an element, a property or a few words.
@@ -198,6 +200,7 @@ impl fmt::Display for ImportNote {
             | Self::Texts(_)
             | Self::Font(_)
             | Self::Characters(_)
+            | Self::ReplacedCharacters(_)
             | Self::LostFeature { .. } => self.write_drawing_note(f),
         }
     }
@@ -223,6 +226,16 @@ impl ImportNote {
             Self::Characters(n) => {
                 write_ignored(f, *n, ["character", "characters"])?;
                 f.write_str(" because no installed font provides outlines; convert text to paths")
+            }
+            Self::ReplacedCharacters(n) => {
+                let (words, them) = match n {
+                    1 => ("character is", "it"),
+                    _ => ("characters are", "them"),
+                };
+                write!(
+                    f,
+                    "{n} {words} drawn in another font, because the chosen one lacks {them}; convert text to paths",
+                )
             }
             Self::LostFeature {
                 feature,

@@ -26,7 +26,7 @@ pub(super) struct FontLookup {
     absent: Mutex<MissingFonts>,
 }
 
-/// Font families that are not installed, and characters that no font has.
+/// Font families that are not installed, and characters that their font lacks.
 #[derive(Clone, Default)]
 pub(super) struct MissingFonts {
     /// Names of missing font families.
@@ -34,13 +34,14 @@ pub(super) struct MissingFonts {
     /// Characters for which no font was found, or for which no search was made because the drawing
     /// had reached the maximum number of searches.
     pub characters: BTreeSet<char>,
+    /// Characters that their font lacks and that are drawn in another one.
+    pub replaced: BTreeSet<char>,
 }
 
 impl FontLookup {
     /// Returns the font resolver for `usvg`, which also records missing fonts and characters.
     pub(super) fn resolver(&self) -> FontResolver<'_> {
         let select = FontResolver::default_font_selector();
-        let find = FontResolver::default_fallback_selector();
         FontResolver {
             select_font: Box::new(move |font, fonts| {
                 self.note_fonts(font.families(), fonts);
@@ -54,11 +55,15 @@ impl FontLookup {
             }),
             select_fallback: Box::new(move |character, tried, fonts| {
                 let searches = self.searches.fetch_add(1, Ordering::Relaxed);
-                let found = (searches < MAX_SEARCHES).then(|| find(character, tried, fonts));
+                let found =
+                    (searches < MAX_SEARCHES).then(|| fallback_font(character, tried, fonts));
                 let found = found.flatten();
-                if found.is_none() {
-                    self.absent().characters.insert(character);
-                }
+                let mut absent = self.absent();
+                let characters = match found {
+                    Some(_) => &mut absent.replaced,
+                    None => &mut absent.characters,
+                };
+                characters.insert(character);
                 found
             }),
         }
@@ -107,6 +112,27 @@ fn missing_style(font: &Font, id: ID, fonts: &Database) -> Option<&'static str> 
     };
     let is_variable = fonts.with_face_data(id, is_variable).unwrap_or(false);
     (!is_variable).then_some(style)
+}
+
+/// Returns a font that has a character, of those with the style of the first font that was tried,
+/// or the most similar style.
+fn fallback_font(character: char, tried: &[ID], fonts: &Database) -> Option<ID> {
+    let wanted = fonts.face(*tried.first()?)?;
+    let mut faces: Vec<&FaceInfo> = fonts.faces().filter(|f| !tried.contains(&f.id)).collect();
+    faces.sort_by_key(|face| {
+        let is_other_family = face.families.first() != wanted.families.first();
+        let weight = face.weight.0.abs_diff(wanted.weight.0);
+        let is_other_style = (face.style != wanted.style, face.stretch != wanted.stretch);
+        (is_other_style, weight, is_other_family)
+    });
+    let has_character = |data: &[u8], index: u32| {
+        let font = FontRef::from_index(data, index);
+        font.is_ok_and(|font| font.charmap().map(character).is_some())
+    };
+    let found = faces
+        .into_iter()
+        .find(|face| fonts.with_face_data(face.id, has_character) == Some(true));
+    found.map(|face| face.id)
 }
 
 fn is_installed(fonts: &Database, family: Family) -> bool {

@@ -40,6 +40,7 @@ impl SvgReport {
             counted_note(ignored_strokes, ImportNote::Strokes),
             counted_note(texts, ImportNote::Texts),
             counted_note(characters, ImportNote::Characters),
+            counted_note(absent.replaced.len(), ImportNote::ReplacedCharacters),
         ];
         self.lost.extend(std::mem::take(&mut painted.lost));
         let nonzero = counted.into_iter().filter(|&(count, _)| count > 0);
