@@ -8,6 +8,9 @@ use std::f64::consts::PI;
 /// Maximum depth of nested brackets in an expression (resource limit: the parser recurses).
 const MAX_DEPTH: usize = 32;
 
+/// Usual height of a line in browsers, relative to the font size.
+const LINE_HEIGHT: f64 = 1.2;
+
 /// Sizes to which relative units refer, in user units.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::design::svg) struct LengthContext {
@@ -45,8 +48,8 @@ impl LengthContext {
         }
     }
 
-    /// Returns the size of a unit: user units for lengths, radians for angles. `ex` and `ch` are
-    /// half of `em`, as in the fallback of the specification.
+    /// Returns the size of a unit: user units for lengths, radians for angles. Units that depend on
+    /// a font have the fallback sizes of the specification.
     fn unit(&self, unit: &str, basis: PercentageBasis) -> Option<(f64, CssQuantityKind)> {
         const INCH: f64 = 96.0;
         let length = match unit {
@@ -64,13 +67,15 @@ impl LengthContext {
             "pc" => INCH / 6.0,
             "em" => self.font_size,
             "ex" | "ch" => 0.5 * self.font_size,
+            "rex" | "rch" => 0.5 * self.root_font_size,
             "cap" | "ic" => self.font_size,
-            "lh" => 1.2 * self.font_size, // browsers' usual height of a line
-            "rem" => self.root_font_size,
-            "vw" | "svw" | "lvw" | "dvw" | "vi" => self.page.x / 100.0,
-            "vh" | "svh" | "lvh" | "dvh" | "vb" => self.page.y / 100.0,
-            "vmin" => self.page.min_element() / 100.0,
-            "vmax" => self.page.max_element() / 100.0,
+            "rem" | "rcap" | "ric" => self.root_font_size,
+            "lh" => LINE_HEIGHT * self.font_size,
+            "rlh" => LINE_HEIGHT * self.root_font_size,
+            "vw" | "svw" | "lvw" | "dvw" | "vi" | "cqw" | "cqi" => self.page.x / 100.0,
+            "vh" | "svh" | "lvh" | "dvh" | "vb" | "cqh" | "cqb" => self.page.y / 100.0,
+            "vmin" | "cqmin" => self.page.min_element() / 100.0,
+            "vmax" | "cqmax" => self.page.max_element() / 100.0,
             "%" if basis == PercentageBasis::One => return Some((0.01, CssQuantityKind::Number)),
             "%" => self.whole(basis) / 100.0,
             _ => return None,
@@ -158,6 +163,21 @@ fn has_foreign_unit(part: &str) -> bool {
     let known = ["", "%", "em", "ex", "px", "in", "cm", "mm", "pt", "pc"];
     // `usvg` reads units in lower case only.
     number > 0 && (!known.contains(&unit.as_str()) || unit != part[number..])
+}
+
+/// Returns the first unit in a value whose size depends on a font.
+pub(in crate::design::svg) fn font_dependent_unit(value: &str) -> Option<&'static str> {
+    const UNITS: [&str; 10] = [
+        "ex", "rex", "ch", "rch", "cap", "rcap", "ic", "ric", "lh", "rlh",
+    ];
+    let is_separator = |c: char| !c.is_ascii_alphanumeric() && c != '.';
+    let mut parts = value.split(is_separator);
+    parts.find_map(|part| {
+        let unit = &part[number_length(part)..];
+        let has_number = unit.len() < part.len();
+        let mut units = UNITS.into_iter().filter(|_| has_number);
+        units.find(|known| known.eq_ignore_ascii_case(unit))
+    })
 }
 
 /// Returns the number of bytes of the number at the beginning of a text; 0 if there is none.

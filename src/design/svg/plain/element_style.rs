@@ -1,7 +1,9 @@
 //! Values of the properties of one element: presentation attributes overridden by declarations.
 
 use super::inherited::{InheritedStyle, Overrides, view_box_size};
-use crate::design::svg::css::math::{LengthContext, PercentageBasis, evaluate, plain_lengths};
+use crate::design::svg::css::math::{
+    LengthContext, PercentageBasis, evaluate, font_dependent_unit, plain_lengths,
+};
 use crate::design::svg::css::properties::{
     Property, ValueContext, ValueType, has_geometry, is_presentation_attribute, longhands,
     plain_value, property,
@@ -76,6 +78,7 @@ impl ElementStyle {
             lengths: inherited.lengths,
             colour: inherited.colour.clone(),
         };
+        report_font_dependent_units(node, &declared, lost);
         style.set_font_size(node, &declared, inherited);
         style.set_colour(node, &declared);
         style.set_attributes(node, overrides);
@@ -304,6 +307,24 @@ fn declared_values(declarations: &[Declaration], variables: &Variables) -> Vec<D
         declared.extend(split.map(|(name, text)| (name, value.is_some().then_some(text))));
     }
     declared
+}
+
+/// Reports lengths whose size depends on a font.
+fn report_font_dependent_units(node: Node, declared: &[DeclaredValue], lost: &mut LostFeatures) {
+    let attributes = node.attributes().map(|a| (a.name(), Some(a.value())));
+    let declared = declared
+        .iter()
+        .map(|(name, value)| (name.as_str(), value.as_deref()));
+    for (name, value) in attributes.chain(declared) {
+        let is_length = property(name).is_some_and(|property| {
+            use ValueType::{Geometry, Length, Transform};
+            matches!(property.value_type, Length(_) | Geometry(_) | Transform)
+        });
+        if let Some(unit) = value.filter(|_| is_length).and_then(font_dependent_unit) {
+            let done = "estimated from the font size";
+            lost.replace(&format!("length in {unit}"), done, &element_label(node));
+        }
+    }
 }
 
 /// Returns the font size of a `font` shorthand.
