@@ -172,7 +172,9 @@ pub(in crate::design::svg) fn is_presentation_attribute(name: &str, tag: &str) -
     match property.name {
         "font" | "translate" | "rotate" | "scale" | "animation" | "animation-name"
         | "offset-path" | "text-transform" | "mix-blend-mode" | "isolation"
-        | "background-color" | "mask-mode" | "perspective" | "text-shadow" => false,
+        | "background-color" | "mask-mode" | "perspective" | "text-shadow" | "font-kerning" => {
+            false
+        }
         "d" => tag == "path",
         "x" | "y" | "width" | "height" | "cx" | "cy" | "r" | "rx" | "ry" => {
             has_geometry(property.name, tag)

@@ -38,6 +38,20 @@ enum Target {
     External,
 }
 
+/// Returns whether browsers ignore an attribute that `usvg` would apply.
+fn is_without_effect(name: &str, value: &str) -> bool {
+    match name {
+        "font-kerning" => true, // a property of style sheets only
+        "textLength" => {
+            let number = value
+                .trim()
+                .trim_end_matches(|c: char| c.is_ascii_alphabetic() || c == '%');
+            number.parse().is_ok_and(|length: f64| length == 0.0)
+        }
+        _ => false,
+    }
+}
+
 impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
     /// Writes the start tag of an element under the name `tag`.
     pub(super) fn open_tag(
@@ -91,6 +105,7 @@ impl<'d, 'a> PlainWriter<'_, '_, 'd, 'a> {
                     | "gradientTransform"
                     | "patternTransform"
             ) || is_presentation_attribute(name, tag)
+                || is_without_effect(name, attribute.value())
                 || overrides.get(name).is_some();
             match attribute.namespace() {
                 Some(XML) => self.attribute(&format!("xml:{name}"), attribute.value()),
