@@ -62,8 +62,9 @@ def screenshot(drawing, height, folder):
     return np.asarray(pixels).astype(int)
 
 
-def compare(program, path, folder, out):
-    """Returns the share of differing pixels (None if the drawing was refused) and the messages."""
+def pictures(program, path, folder):
+    """Returns the pixels of a drawing in Chromium, those of its import, and the notes of the import.
+    Both pictures are None if the drawing was refused."""
     text, ratio = with_marks(path.read_text(encoding="utf-8"))
     original, imported = folder / "original.svg", folder / "imported.svg"
     original.write_text(text, encoding="utf-8")
@@ -73,10 +74,18 @@ def compare(program, path, folder, out):
     notes = [line for line in run.stderr.splitlines() if not line.startswith("wrote ")]
     notes = [line.removeprefix("original: ") for line in notes]
     if run.returncode:
-        return None, notes
+        return None, None, notes
     imported.write_text(cut_to_marks(imported.read_text()))
     height = round(WIDTH_PX * ratio)
     expected, found = (screenshot(file, height, folder) for file in (original, imported))
+    return expected, found, notes
+
+
+def compare(program, path, folder, out):
+    """Returns the share of differing pixels (None if the drawing was refused) and the messages."""
+    expected, found, notes = pictures(program, path, folder)
+    if expected is None:
+        return None, notes
     if out:
         both = np.concatenate([expected, found], axis=1).astype("uint8")
         Image.fromarray(both).save(out / f"{path.stem}.png")
