@@ -27,7 +27,7 @@ MARK = "#123456"
 
 
 def with_marks(text):
-    """Returns a drawing with marks in the corners of its page, and its height for a width of 1."""
+    """Returns a drawing with marks in the corners of its page, and the size of the page."""
     box = re.search(r"<svg[^>]*\sviewBox\s*=\s*[\"']([^\"']+)", text).group(1)
     x, y, width, height = map(float, re.split(r"[ ,]+", box.strip()))
     side = width / 100
@@ -35,7 +35,7 @@ def with_marks(text):
     data = "".join(f"M{u} {v}h{side}v{side}h{-side}z" for u, v in corners)
     end = text.rindex("</svg>")
     mark = f'<path style="fill:{MARK}!important;stroke:none!important" d="{data}"/>'
-    return text[:end] + mark + text[end:], height / width
+    return text[:end] + mark + text[end:], (width, height)
 
 
 def cut_to_marks(text):
@@ -49,23 +49,28 @@ def cut_to_marks(text):
     return re.sub(r'viewBox="[^"]+"', f'viewBox="{box}" preserveAspectRatio="none"', text, count=1)
 
 
-def screenshot(drawing, height, folder):
-    """Returns the pixels of a drawing as Chromium shows it on white."""
+def screenshot(drawing, page_size, folder):
+    """Returns the pixels of a drawing as Chromium shows it on white. The drawing has the size of its
+    page, to which units like `vw` refer, and is then enlarged."""
     page, picture = folder / "page.html", folder / "page.png"
-    image = f'<img src="{drawing.as_uri()}" style="display:block;width:{WIDTH_PX}px;height:{height}px">'
+    (width, height), scale = page_size, WIDTH_PX / page_size[0]
+    height_px = round(scale * height)
+    style = f"display:block;width:{width}px;height:{height}px"
+    style += f";transform-origin:0 0;transform:scale({scale})"
+    image = f'<img src="{drawing.as_uri()}" style="{style}">'
     page.write_text(f'<body style="margin:0;background:#fff;overflow:hidden">{image}</body>')
     command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]
     command += ["--allow-file-access-from-files", f"--user-data-dir={folder / 'profile'}"]
-    command += [f"--window-size={WIDTH_PX},{height + 200}", f"--screenshot={picture}", page.as_uri()]
+    command += [f"--window-size={WIDTH_PX},{height_px + 200}", f"--screenshot={picture}", page.as_uri()]
     subprocess.run(command, capture_output=True, timeout=120, check=True)
-    pixels = Image.open(picture).convert("RGB").crop((0, 0, WIDTH_PX, height))
+    pixels = Image.open(picture).convert("RGB").crop((0, 0, WIDTH_PX, height_px))
     return np.asarray(pixels).astype(int)
 
 
 def pictures(program, path, folder):
     """Returns the pixels of a drawing in Chromium, those of its import, and the notes of the import.
     Both pictures are None if the drawing was refused."""
-    text, ratio = with_marks(path.read_text(encoding="utf-8"))
+    text, page_size = with_marks(path.read_text(encoding="utf-8"))
     original, imported = folder / "original.svg", folder / "imported.svg"
     original.write_text(text, encoding="utf-8")
     command = [program, "render", original, original, "--at", "0", "--quality", "draft"]
@@ -76,8 +81,7 @@ def pictures(program, path, folder):
     if run.returncode:
         return None, None, notes
     imported.write_text(cut_to_marks(imported.read_text()))
-    height = round(WIDTH_PX * ratio)
-    expected, found = (screenshot(file, height, folder) for file in (original, imported))
+    expected, found = (screenshot(file, page_size, folder) for file in (original, imported))
     return expected, found, notes
 
 
