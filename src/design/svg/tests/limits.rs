@@ -3,6 +3,9 @@
 use super::*;
 use std::time::{Duration, Instant};
 
+/// Time after which an import counts as endless: ten times what it takes on a busy machine.
+const ENDLESS: Duration = Duration::from_secs(60);
+
 /// Builds a drawing of `levels` groups. Each group has `copies` references to the previous group.
 /// `link` returns the text of a reference to the group with a given number.
 fn bomb(levels: usize, copies: usize, link: impl Fn(usize) -> String) -> String {
@@ -19,7 +22,7 @@ fn bomb(levels: usize, copies: usize, link: impl Fn(usize) -> String) -> String 
 fn refused_quickly(body: &str) -> SvgError {
     let start = Instant::now();
     let error = read_body(body).expect_err("a bomb");
-    assert!(start.elapsed() < Duration::from_secs(5));
+    assert!(start.elapsed() < ENDLESS);
     error
 }
 
@@ -195,7 +198,7 @@ fn a_stroke_of_countless_dashes_does_not_hang() {
         r#"<path d="M0 0 h100" stroke="black" stroke-dasharray="1e-7" stroke-linecap="round"/>"#;
     let start = Instant::now();
     drop(stroked(&path.repeat(3), None));
-    assert!(start.elapsed() < Duration::from_secs(30));
+    assert!(start.elapsed() < ENDLESS);
 }
 
 /// Tries all ways in which a drawing could refer to another file.
