@@ -21,6 +21,7 @@ mod note;
 mod obj;
 mod options;
 mod paint_layer;
+mod panic_boundary;
 mod picture;
 mod polygons;
 mod silhouette;

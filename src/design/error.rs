@@ -41,6 +41,9 @@ pub enum ImportProblem {
         /// The requested element id.
         id: String,
     },
+    /// A library that decodes the file failed in an unexpected way; holds its message.
+    #[error("the file cannot be decoded ({0}); open it in another program and save it again")]
+    Decoder(String),
     /// No importer recognises the content.
     #[error(transparent)]
     UnknownFormat(#[from] UnknownFormat),

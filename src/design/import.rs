@@ -5,6 +5,7 @@ use super::error::{ImportError, ImportProblem};
 use super::form::{Design, ImportedOutlines};
 use super::format::Format;
 use super::options::ImportOptions;
+use super::panic_boundary::catch_panic;
 use super::sniff::sniff;
 use super::source::DesignSource;
 use super::text_encoding::{plain_bytes, xml_text};
@@ -30,7 +31,8 @@ use std::path::Path;
 /// ```
 pub fn import(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Design, ImportError> {
     let file = name.to_owned();
-    read(file.clone(), bytes, None, options).map_err(|problem| ImportError { file, problem })
+    contained(|| read(file.clone(), bytes, None, options))
+        .map_err(|problem| ImportError { file, problem })
 }
 
 /// Imports a design from a path: a file, an element of a drawing, or text in a font
@@ -77,13 +79,18 @@ impl DesignSource {
                 Ok(lettering::read(text, font, options.tolerance)?.into_design(name))
             }
         };
-        read().map_err(|problem| self.error(problem))
+        contained(read).map_err(|problem| self.error(problem))
     }
 
     fn error(&self, problem: ImportProblem) -> ImportError {
         let file = self.to_path().display().to_string();
         ImportError { file, problem }
     }
+}
+
+/// Runs an importer and turns its panics into errors.
+fn contained<T>(import: impl FnOnce() -> Result<T, ImportProblem>) -> Result<T, ImportProblem> {
+    catch_panic(import).unwrap_or_else(|message| Err(ImportProblem::Decoder(message)))
 }
 
 /// Imports the bytes of a file. If `element` is given, the file must be an SVG drawing, and only

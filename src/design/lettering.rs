@@ -11,9 +11,12 @@
 //! missing character is an error instead of a box. Does not support bitmap or colour
 //! glyphs or several lines.
 
+mod glyph_work;
+
 use super::flatten::{Flattener, MIN_TOLERANCE, TooManyPoints};
 use super::form::ImportedOutlines;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError};
+use glyph_work::GlyphWork;
 use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlineGlyphCollection, OutlinePen};
@@ -54,6 +57,12 @@ pub enum TextError {
         "the font has no outline for glyph {glyph}; choose an intact font with vector outlines"
     )]
     NoOutline {
+        /// Glyph index in the font.
+        glyph: u32,
+    },
+    /// The outline of a glyph is very complex.
+    #[error("the outline of glyph {glyph} takes too long to draw; choose another font")]
+    ComplexGlyph {
         /// Glyph index in the font.
         glyph: u32,
     },
@@ -265,8 +274,13 @@ impl TextLine {
         flattener: &mut Flattener,
     ) -> Result<Vec<Vec<DVec2>>, TextError> {
         let glyphs = font.outline_glyphs();
+        let mut work = GlyphWork::new(font);
         let mut rings = Vec::new();
         for &(glyph, origin) in &self.glyphs {
+            if !work.permits(glyph) {
+                let glyph = glyph.to_u32();
+                return Err(TextError::ComplexGlyph { glyph });
+            }
             let Some(path) = glyph_path(&glyphs, glyph)?.finish() else {
                 continue; // a space
             };

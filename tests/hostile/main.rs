@@ -6,8 +6,10 @@
 //! tests generate all files.
 
 mod bounded_run;
+mod broken_pictures;
 mod expansion_bombs;
 mod extreme_numbers;
+mod fonts;
 mod large_images;
 mod special_files;
 mod terminal_escapes;
