@@ -12,6 +12,10 @@ use std::f64::consts::TAU;
 /// Number of samples on a stretch of outline that is as long as the drawing's diameter (heuristic).
 const SAMPLES_PER_DIAMETER: f64 = 200.0;
 
+/// Maximum number of samples on one ring (resource limit: 16 MB; an outline needs them only if it is
+/// five thousand times as long as the drawing's diameter).
+const MAX_SAMPLES: f64 = 1e6;
+
 /// Returns the turning of all rings together, in radians. `diameter`, the diagonal of the bounding
 /// box of the whole drawing, sets the distance between samples.
 pub(crate) fn total_turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
@@ -41,7 +45,7 @@ fn resample(ring: &[DVec2], step: f64) -> Vec<DVec2> {
     if !(length.is_finite() && length > 0.0 && step > 0.0) {
         return Vec::new();
     }
-    let count = (length / step).round().max(3.0);
+    let count = (length / step).round().clamp(3.0, MAX_SAMPLES);
     let mut points = Vec::with_capacity(count as usize);
     let mut covered = 0.0;
     for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {

@@ -47,6 +47,9 @@ pub enum TransitionNote {
     /// The trusses number their nodes differently; the nodes were paired by their bars and
     /// positions.
     NodesRenumbered,
+    /// The match that is saved in the project does not belong to its designs, and another one was
+    /// computed.
+    CachedMatchIgnored,
     /// Parts are not paired by their names, because there are too many of them.
     NamesIgnored,
     /// Part timings were requested but ignored, because the method is not rigid parts.
@@ -104,6 +107,10 @@ impl fmt::Display for TransitionNote {
             Self::NodesRenumbered => write!(
                 f,
                 "the nodes of the trusses were paired by their bars and positions, because their numbers differ"
+            ),
+            Self::CachedMatchIgnored => write!(
+                f,
+                "the match saved in the project does not belong to its designs, so another one was computed; save the project to keep it"
             ),
             Self::NamesIgnored => write!(
                 f,

@@ -9,6 +9,7 @@ use super::arap_build::check_size;
 use super::cached_match;
 use super::drawing_pair::DrawingPair;
 use super::error::BuildError;
+use super::note::TransitionNote;
 use super::options::PaintRule;
 use super::piece_coating;
 use super::piece_coating::PieceBoundaryLoops;
@@ -115,10 +116,21 @@ fn cached_or_best(
     progress: &dyn Progress,
 ) -> Result<KeyedSolution, BuildError> {
     let key = cached_match::cache_key(&spec.options, drawings);
-    let solution = match solution_cache::restore(&spec.cached_match, &key, &spec.options, progress)?
-    {
+    let found = &spec.cached_match;
+    let is_found = found.is_for(&key);
+    let restored = match is_found {
+        true => solution_cache::restore(found, &drawings.outlines, &spec.options, progress)?,
+        false => None,
+    };
+    let solution = match restored {
         Some(solution) => solution,
-        None => rigid_solution::solve_best(spec, drawings, progress)?,
+        None => {
+            let mut solution = rigid_solution::solve_best(spec, drawings, progress)?;
+            if is_found {
+                solution.notes.push(TransitionNote::CachedMatchIgnored);
+            }
+            solution
+        }
     };
     Ok(KeyedSolution { key, solution })
 }

@@ -3,13 +3,15 @@
 //!
 //! The text contains the match and the mesh of the solved motion; restoring the motion takes one
 //! factorisation. A stored motion is used only for the outlines and options for which it was
-//! computed, and only if all of it is valid. Otherwise the motion is computed again without a
-//! message.
+//! computed, and only if all of it is valid and belongs to these outlines. Otherwise the motion is
+//! computed again.
+
+mod fit;
 
 use super::cached_match::{CachedMatch, SharedText};
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::PieceMatch;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, Regions};
 use crate::transition::arap_build::{check_size, without_subdivision};
 use crate::transition::error::BuildError;
 use crate::transition::note::TransitionNote;
@@ -50,23 +52,19 @@ impl KeyedSolution {
     }
 }
 
-/// Restores the cached motion if it was computed for this key and is valid; otherwise returns
-/// `None`.
+/// Restores the cached motion of two outlines. Returns `None` if it is invalid or does not belong
+/// to them.
 ///
 /// # Errors
 /// If the mesh is too large or the work is cancelled.
 pub(in crate::transition) fn restore(
     found: &CachedMatch,
-    key: &str,
+    outlines: &[Regions; 2],
     options: &TransitionOptions,
     progress: &dyn Progress,
 ) -> Result<Option<RigidSolution>, BuildError> {
-    let record = if found.is_for(key) {
-        SolutionRecord::decode(&found.film.0)
-    } else {
-        None
-    };
-    let solution = record.map(|record| record.rebuild(options, progress));
+    let record = SolutionRecord::decode(&found.film.0);
+    let solution = record.map(|record| record.rebuild(outlines, options, progress));
     check_cancelled(progress)?;
     Ok(solution.transpose()?.flatten())
 }
@@ -91,9 +89,13 @@ impl SolutionRecord {
     /// Converts a motion to a record; `None` if the motion has notes that cannot be stored.
     fn of(solution: &RigidSolution) -> Option<Self> {
         let mesh = solution.arap.mesh();
-        let mirrored = match solution.notes[..] {
-            [] => None,
-            [TransitionNote::Mirrored { as_drawn, mirrored }] => Some([as_drawn, mirrored]),
+        let notes = solution.notes.iter();
+        let mut notes = notes.filter(|note| !matches!(note, TransitionNote::CachedMatchIgnored));
+        let mirrored = match (notes.next(), notes.next()) {
+            (None, _) => None,
+            (Some(&TransitionNote::Mirrored { as_drawn, mirrored }), None) => {
+                Some([as_drawn, mirrored])
+            }
             _ => return None,
         };
         Some(Self {
@@ -139,10 +141,11 @@ impl SolutionRecord {
     /// If the mesh is too large.
     fn rebuild(
         self,
+        outlines: &[Regions; 2],
         options: &TransitionOptions,
         progress: &dyn Progress,
     ) -> Result<Option<RigidSolution>, BuildError> {
-        if !self.is_sound() {
+        if !self.is_sound(fit::max_length(outlines)) {
             return Ok(None);
         }
         let [source, target] = self.places;
@@ -150,7 +153,8 @@ impl SolutionRecord {
             return Ok(None);
         };
         let parts = mesh.components().into_iter().max().map_or(0, |k| k + 1);
-        if parts as usize != self.pieces.len() {
+        let is_complete = parts as usize == self.pieces.len();
+        if !is_complete || !fit::is_of_outlines(&self.pieces, &mesh, outlines) {
             return Ok(None);
         }
         check_size(&mesh, &options.arap, progress)?;
@@ -180,8 +184,8 @@ impl SolutionRecord {
 
     /// Returns whether all numbers and indices are in range, and no list is longer than the number
     /// of pieces, faces or vertices that it describes. Faces and positions are checked later, when
-    /// the mesh is built.
-    fn is_sound(&self) -> bool {
+    /// the mesh is built. `max_length` is the longest displacement of a guard.
+    fn is_sound(&self, max_length: f64) -> bool {
         let pieces = self.pieces.len();
         let is_piece = |piece: &PieceMatch| {
             let mut rings = piece.rings.iter().chain(&piece.lone);
@@ -203,7 +207,7 @@ impl SolutionRecord {
             && self
                 .guard
                 .iter()
-                .all(|guard| guard.is_sound(self.places[0].len()))
+                .all(|guard| guard.is_sound(self.places[0].len(), max_length))
     }
 }
 
@@ -363,6 +367,18 @@ mod tests {
         change(&|record| record.swelling = vec![99]);
         change(&|record| record.stiffness = vec![-1.0]);
         change(&|record| record.guard = guard(1 << 20));
+        // Coordinates far away, and a motion of other designs.
+        change(&|record| record.places[1][3].x = 1e9);
+        change(&|record| record.pieces[0].rings[0].target[0].x = 1e9);
+        change(&|record| {
+            let mut far = vec![vec![DVec2::ZERO; record.places[0].len()]; 3];
+            far[1].fill(DVec2::new(1e9, 0.0));
+            record.guard = Guard::new(vec![0.25, 0.5, 0.75], &far);
+        });
+        change(&|record| {
+            let places = record.places.iter_mut().flatten();
+            places.for_each(|p| *p *= 0.5);
+        });
         let texts = changed.iter().map(|record| record.encode().expect("text"));
         let cut = |k: usize| found.film.0[..found.film.0.len() * k / 8].to_owned();
         for text in texts.chain((1..8).map(cut)).chain(["-".to_owned()]) {
@@ -390,6 +406,7 @@ mod tests {
         spec.options.quality = BuildQuality::Draft;
         let record = SolutionRecord::decode(&found(&built(&spec)).film.0).expect("a record");
         let bytes = rmp_serde::to_vec(&record).expect("bytes");
+        let outlines = spec.drawings(1.0, &Silent).expect("outlines").outlines;
         let mut state = 1_u64;
         let mut random = |below: usize| {
             // Knuth's MMIX generator: its high bits are random enough.
@@ -406,7 +423,7 @@ mod tests {
             let Ok(record) = rmp_serde::from_slice::<SolutionRecord>(&bytes) else {
                 continue;
             };
-            if let Ok(Some(solution)) = record.rebuild(&spec.options, &Silent) {
+            if let Ok(Some(solution)) = record.rebuild(&outlines, &spec.options, &Silent) {
                 valid_count += 1;
                 let mut placer = solution.arap.placer();
                 placer.place(0.5);

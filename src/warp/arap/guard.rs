@@ -52,12 +52,12 @@ impl Guard {
             moved: rows.iter().map(of_moved).collect(),
             vertices,
         };
-        guard.is_sound(count).then_some(guard)
+        guard.is_sound(count, f64::MAX).then_some(guard)
     }
 
     /// Returns whether the guard meets the conditions of [`Self::new`] and fits a mesh with
-    /// `vertex_count` vertices.
-    pub(crate) fn is_sound(&self, vertex_count: usize) -> bool {
+    /// `vertex_count` vertices, and no displacement is longer than `max_length`.
+    pub(crate) fn is_sound(&self, vertex_count: usize, max_length: f64) -> bool {
         let [first, .., last] = self.moved.as_slice() else {
             return false;
         };
@@ -75,7 +75,11 @@ impl Guard {
             && ordered
             && last_vertex.is_some_and(|&last| (last as usize) < vertex_count)
             && alike
-            && self.moved.iter().flatten().all(|by| by.is_finite())
+            && self
+                .moved
+                .iter()
+                .flatten()
+                .all(|by| by.as_dvec2().length() <= max_length) // false for NaN
             && first.iter().chain(last).all(|&by| by == Vec2::ZERO)
     }
 
