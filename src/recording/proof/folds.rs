@@ -6,11 +6,17 @@ use super::vertex_curve::{IntervalCurves, VertexCurve};
 use crate::geometry::{DVec2, orient2d};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
+use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Maximum number of times that an interval is halved to prove that a face does not fold or that a
 /// vertex stays off an edge (tolerance: the last part is 2⁻³⁰ of the interval, about 1e-9).
 pub(super) const MAX_HALVINGS: u32 = 30;
+
+/// Maximum number of parts of an interval that are examined for one face, or for one vertex and
+/// edge (resource limit: some milliseconds; where rounding errors are as large as the distances,
+/// all 2³⁰ parts would be examined).
+const MAX_PARTS: u32 = 4096;
 
 /// Returns the earliest time in the interval at which a face is not proved to be positively
 /// oriented, as the fraction s of the interval, and the index of that face. `at_ends` marks the
@@ -38,7 +44,8 @@ pub(super) fn first_fold(
         if progress.is_cancelled() {
             return None;
         }
-        let s = first_not_positive(&area, ends, [0.0, 1.0], MAX_HALVINGS, &earliest)?;
+        let search = Bisection::new(&earliest);
+        let s = first_not_positive(&area, ends, [0.0, 1.0], MAX_HALVINGS, &search)?;
         Some((s, face))
     };
     let failures = faces.par_iter().enumerate().filter_map(of_face);
@@ -60,16 +67,48 @@ impl Default for EarliestFailure {
 
 impl EarliestFailure {
     /// Returns whether a proof has already failed at a time before `s`.
-    pub(super) fn is_before(&self, s: f64) -> bool {
+    fn is_before(&self, s: f64) -> bool {
         // Relaxed ordering suffices, because the number only saves work. The bits of non-negative
         // floats are ordered like the floats.
         self.0.load(Ordering::Relaxed) < s.to_bits()
     }
 
     /// Records that a proof has failed at `s`, and returns `s`.
-    pub(super) fn report(&self, s: f64) -> f64 {
+    fn report(&self, s: f64) -> f64 {
         self.0.fetch_min(s.to_bits(), Ordering::Relaxed);
         s
+    }
+}
+
+/// Bisection of an interval for one face, or for one vertex and edge.
+pub(super) struct Bisection<'e> {
+    earliest: &'e EarliestFailure,
+    parts_left: Cell<u32>,
+}
+
+impl<'e> Bisection<'e> {
+    pub(super) fn new(earliest: &'e EarliestFailure) -> Self {
+        Self {
+            earliest,
+            parts_left: Cell::new(MAX_PARTS),
+        }
+    }
+
+    /// Returns whether a proof has already failed at a time before `s`.
+    pub(super) fn is_after_failure(&self, s: f64) -> bool {
+        self.earliest.is_before(s)
+    }
+
+    /// Counts an undecided part of the interval; returns whether no further part may be examined.
+    pub(super) fn exhausts_parts(&self) -> bool {
+        let left = self.parts_left.get().saturating_sub(1);
+        self.parts_left.set(left);
+        left == 0
+    }
+
+    /// Records that the proof has failed at `s`, and returns `s`.
+    pub(super) fn report(&self, s: f64) -> f64 {
+        self.earliest.report(s)
     }
 }
 
@@ -111,24 +150,25 @@ pub(super) fn product(
 
 /// Returns the smallest s in `[from, to]` at which a polynomial is not proved to be positive, by
 /// bisection. The result is `None` if the polynomial is positive throughout, or if a failure before
-/// `from` is already known.
+/// `from` is already known. If too many parts are undecided, the first of those left counts as not
+/// positive.
 pub(super) fn first_not_positive(
     of: &BernsteinPolynomial,
     ends: [EndSign; 2],
     [from, to]: [f64; 2],
     halvings: u32,
-    earliest: &EarliestFailure,
+    search: &Bisection,
 ) -> Option<f64> {
-    if earliest.is_before(from) || of.is_positive(ends) {
+    if search.is_after_failure(from) || of.is_positive(ends) {
         return None;
     }
-    if ends[0] == EndSign::NotPositive || halvings == 0 {
-        return Some(earliest.report(from));
+    if ends[0] == EndSign::NotPositive || halvings == 0 || search.exhausts_parts() {
+        return Some(search.report(from));
     }
     let middle = from.midpoint(to);
     let [left, right] = of.halves();
     let in_half = |of: &BernsteinPolynomial, ends: [EndSign; 2], times: [f64; 2]| {
-        first_not_positive(of, ends, times, halvings - 1, earliest)
+        first_not_positive(of, ends, times, halvings - 1, search)
     };
     in_half(&left, [ends[0], EndSign::Unknown], [from, middle])
         .or_else(|| in_half(&right, [EndSign::Unknown, ends[1]], [middle, to]))

@@ -8,7 +8,7 @@
 
 use super::bernstein::{BernsteinProducts, EndSign};
 use super::drawn_loop::DrawnLoop;
-use super::folds::{EarliestFailure, MAX_HALVINGS, product, twice_area};
+use super::folds::{Bisection, EarliestFailure, MAX_HALVINGS, product, twice_area};
 use super::vertex_curve::{IntervalCurves, VertexCurve};
 use crate::geometry::{DVec2, EdgeCrossing, crossings, orient2d};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
@@ -223,7 +223,8 @@ impl<'a> MeetingSearch<'a> {
             if self.progress.is_cancelled() {
                 return None;
             }
-            let s = self.first_contact(triple, at_ends, [from, to], MAX_HALVINGS, &earliest)?;
+            let search = Bisection::new(&earliest);
+            let s = self.first_contact(triple, at_ends, [from, to], MAX_HALVINGS, &search)?;
             let edge = [a as u32, b as u32];
             // The position of the vertex at the beginning of this part of the interval is accurate
             // enough for display.
@@ -326,16 +327,17 @@ impl<'a> MeetingSearch<'a> {
 
     /// Returns the smallest s in `[from, to]` at which the third curve is not proved to be off the
     /// edge between the first two, by bisection. The result is `None` if the third curve is off the
-    /// edge throughout, or if a failure before `from` is already known.
+    /// edge throughout, or if a failure before `from` is already known. If too many parts are
+    /// undecided, the first of those left counts as a contact.
     fn first_contact(
         &self,
         curves: [VertexCurve; 3],
         at_ends: [bool; 2],
         [from, to]: [f64; 2],
         halvings: u32,
-        earliest: &EarliestFailure,
+        search: &Bisection,
     ) -> Option<f64> {
-        if earliest.is_before(from) {
+        if search.is_after_failure(from) {
             return None;
         }
         let [a, b, p] = curves.each_ref();
@@ -348,22 +350,16 @@ impl<'a> MeetingSearch<'a> {
         if self.is_apart([a, b, p], at_ends) {
             return None;
         }
-        if halvings == 0 {
-            return Some(earliest.report(from));
+        if halvings == 0 || search.exhausts_parts() {
+            return Some(search.report(from));
         }
         let middle = from.midpoint(to);
         let halvings = halvings - 1;
         let [[a0, a1], [b0, b1], [p0, p1]] = [a, b, p].map(VertexCurve::halves);
         let (left, right) = ([a0, b0, p0], [a1, b1, p1]);
-        self.first_contact(
-            left,
-            [at_ends[0], false],
-            [from, middle],
-            halvings,
-            earliest,
-        )
-        .or_else(|| {
-            self.first_contact(right, [false, at_ends[1]], [middle, to], halvings, earliest)
-        })
+        self.first_contact(left, [at_ends[0], false], [from, middle], halvings, search)
+            .or_else(|| {
+                self.first_contact(right, [false, at_ends[1]], [middle, to], halvings, search)
+            })
     }
 }

@@ -153,6 +153,34 @@ fn a_slightly_larger_dip_is_not_proved() {
     assert!(!proves(0.063));
 }
 
+/// Two triangles move together, a millionth apart and so far from the origin that coordinates are
+/// only known to a ten-millionth. Their boxes are disjoint in each of millions of parts of the
+/// interval.
+#[test]
+fn motions_that_rounding_hides_are_given_up() {
+    let at = |k: usize, t: f64| {
+        let corners = [
+            (0.0, 0.0),
+            (4.0, 1.0),
+            (1.0, 3.0),
+            (6.0, 2.0),
+            (9.0, 3.0),
+            (5.0, 6.0),
+        ];
+        let corner = DVec2::from(corners[k]) * 1e-6;
+        DVec2::splat(1e9) + corner + DVec2::new(t, t * t)
+    };
+    let warp = Arc::new(FunctionWarp(Vec::new(), 6, at));
+    let options = RecordingOptions {
+        tolerance: 1e-4,
+        ..RecordingOptions::default()
+    };
+    let recording = Recording::record(warp, &options, &Silent).expect("a recording");
+    let loops = [drawn_loop(&[0, 1, 2]), drawn_loop(&[3, 4, 5])];
+    let proof = recording.prove(&loops, &Silent).expect("an answer");
+    assert!(proof.meeting.is_some(), "{proof:?}");
+}
+
 #[test]
 fn the_proof_is_the_same_on_any_number_of_threads() {
     let of = |threads: usize| {
