@@ -1,5 +1,6 @@
 //! Errors of the compatible triangulation of one piece (a matched connected part).
 
+use super::options::MIN_EDGE_LENGTH;
 use crate::compatible::validation::CompatibleError;
 use crate::geometry::{ApproxPoint, DVec2, Side};
 use crate::mesh::triangulation::TriangulationError;
@@ -92,10 +93,10 @@ pub enum PieceMeshError {
         "a hole of the {0} lies outside its outline or in another hole; make it a separate part"
     )]
     HoleOutside(Side),
-    /// The option [`edge_length`](super::PolygonOptions::edge_length) is not a positive number. The
-    /// field is its value.
+    /// The option [`edge_length`](super::PolygonOptions::edge_length) is too small or not a number.
+    /// The field is its value.
     #[error(
-        "the edge length {0} is not a positive fraction of the diameter; use 0.05, for example"
+        "the edge length {0:?} is below {MIN_EDGE_LENGTH} of the diameter; use 0.05, for example"
     )]
     EdgeLength(f64),
     /// The rings of one design cannot be triangulated, and no specific fault was found in them.

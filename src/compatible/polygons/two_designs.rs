@@ -4,7 +4,7 @@
 use super::boundary_rings;
 use super::boundary_rings::BoundaryRings;
 use super::error::PieceMeshError;
-use super::options::PolygonOptions;
+use super::options::{MIN_EDGE_LENGTH, PolygonOptions};
 use super::pair_mesh::{PairMesh, unit_scale};
 use super::transfer::{FIRST_ROUNDS, MAX_ROUNDS, Transfer};
 use super::{bridges, coarsen, face_cost, mesh_energy, quality};
@@ -97,7 +97,9 @@ fn check<R: AsRef<[DVec2]>>(
         }
     }
     match options.edge_length {
-        Some(share) if share.is_nan() || share <= 0.0 => Err(PieceMeshError::EdgeLength(share)),
+        Some(share) if share.is_nan() || share < MIN_EDGE_LENGTH => {
+            Err(PieceMeshError::EdgeLength(share))
+        }
         _ => Ok(()),
     }
 }
