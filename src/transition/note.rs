@@ -104,16 +104,13 @@ impl fmt::Display for TransitionNote {
                 "the drawings are shown in one colour: they have too many colours or parts for distance fields; use fewer cells, or rigid parts"
             ),
             Self::PageFitted(page) => page.fmt(f),
-            Self::NodesRenumbered => write!(
-                f,
+            Self::NodesRenumbered => f.write_str(
                 "the nodes of the trusses were paired by their bars and positions, because their numbers differ"
             ),
-            Self::CachedMatchIgnored => write!(
-                f,
+            Self::CachedMatchIgnored => f.write_str(
                 "the match saved in the project does not belong to its designs, so another one was computed; save the project to keep it"
             ),
-            Self::NamesIgnored => write!(
-                f,
+            Self::NamesIgnored => f.write_str(
                 "parts are not paired by their names: there are too many of them; remove small parts, or use fewer cells"
             ),
             Self::PartTimesIgnored => write!(

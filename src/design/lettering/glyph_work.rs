@@ -103,12 +103,8 @@ impl<'f> GlyphWork<'f> {
             context: (font.data(), font.charstrings(), font.global_subrs(), &local),
             left: Cell::new(MAX_WORK),
         };
-        // The outline is not needed, and errors are found when the glyph is drawn.
-        let _ = counted.evaluate(&font, bytes);
-        match counted.left.get() {
-            0 => None,
-            left => Some(MAX_WORK - left),
-        }
+        let is_within_limit = counted.evaluates(&font, bytes);
+        is_within_limit.then(|| MAX_WORK - counted.left.get())
     }
 }
 
@@ -133,11 +129,14 @@ struct CountedSubroutines<'a> {
 }
 
 impl CountedSubroutines<'_> {
-    /// Evaluates a charstring without drawing it.
-    fn evaluate(&self, font: &CffFontRef, bytes: &[u8]) -> Result<(), CharstringError> {
+    /// Evaluates a charstring without drawing it; returns whether it ends within the limit. Damaged
+    /// charstrings end where they are damaged.
+    fn evaluates(&self, font: &CffFontRef, bytes: &[u8]) -> bool {
         let store = font.var_store().cloned();
         let blend = store.and_then(|store| BlendState::new(store, &[], 0).ok());
-        cs::evaluate(self, blend, self.count(bytes)?, &mut NoPen).map(|_| ())
+        let counted = self.count(bytes);
+        let width = counted.and_then(|bytes| cs::evaluate(self, blend, bytes, &mut NoPen));
+        width.is_ok() || self.left.get() > 0
     }
 
     /// Counts bytes that are evaluated next.
