@@ -59,7 +59,7 @@ fn both_bounds(outlines: &[Regions; 2]) -> Bounds {
     outlines[0].bounds().union(&outlines[1].bounds())
 }
 
-/// What a stored motion shows at one of its ends.
+/// Vertices and area of a stored motion at one of its ends.
 struct StoredEnd {
     /// Vertices of the mesh and of the holes that exist only at this end.
     vertices: Vec<DVec2>,
