@@ -14,8 +14,8 @@ use skrifa::{GlyphId, Tag};
 use std::cell::Cell;
 use std::collections::HashMap;
 
-/// Maximum work of the glyphs of a text (resource limit: about ten milliseconds; the most complex
-/// letters of ordinary fonts need a few thousand units).
+/// Maximum work of the glyphs of a text (resource limit: a megabyte of charstrings or a million
+/// points).
 const MAX_WORK: u64 = 1_000_000;
 
 /// Maximum depth of composite glyphs inside each other (resource limit: the count recurses; the

@@ -14,8 +14,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(super) const MAX_HALVINGS: u32 = 30;
 
 /// Maximum number of parts of an interval that are examined for one face, or for one vertex and
-/// edge (resource limit: some milliseconds; where rounding errors are as large as the distances,
-/// all 2³⁰ parts would be examined).
+/// edge (resource limit: where rounding errors are as large as the distances, up to 2³⁰ parts would
+/// be examined).
 const MAX_PARTS: u32 = 4096;
 
 /// Returns the earliest time in the interval at which a face is not proved to be positively

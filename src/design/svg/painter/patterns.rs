@@ -22,8 +22,8 @@ const MAX_POINTS: usize = 200_000;
 const MAX_GRADIENT_TILES: usize = 64;
 
 impl SvgPainter<'_> {
-    /// Adds the area `rings` of a path in the current group, painted with a pattern. A pattern with too many tiles is
-    /// replaced by its mean colour.
+    /// Adds the area `rings` of a path in the current group, painted with a pattern. A pattern with
+    /// too many tiles is replaced by its mean colour.
     pub(in crate::design::svg) fn add_pattern(
         &mut self,
         rings: WindingRings,
