@@ -2,7 +2,9 @@
 //! (defects such as folds, with cause and remedy), fixes and notes. Marks on the stage show the
 //! places of the findings.
 
-use bevy_egui::egui::{self, Label, Panel, Rect, RichText, Sense, Ui, vec2};
+use bevy_egui::egui::{
+    self, Label, Panel, Rect, RichText, Sense, TextStyle, TextWrapMode, Ui, WidgetText, vec2,
+};
 
 use crate::app::analysis::film_measures::FilmMeasures;
 use crate::app::analysis::suggestions::is_one_click;
@@ -203,6 +205,10 @@ fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
                 rating => rating.to_string(),
             };
             let text = format!("{} ({remaining})", suggestion.change.label());
+            // The best suggestions come first; those without room are left out.
+            if index > 0 && small_button_width(ui, &text) > ui.available_width() {
+                break;
+            }
             let tip = format!(
                 "Tested: {} instead of {current}. Can be undone.",
                 suggestion.rating
@@ -212,6 +218,18 @@ fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
             }
         }
     });
+}
+
+/// Returns the width of a small button with `text`, in points.
+fn small_button_width(ui: &Ui, text: &str) -> f32 {
+    let text = WidgetText::from(text);
+    let galley = text.into_galley(
+        ui,
+        Some(TextWrapMode::Extend),
+        f32::INFINITY,
+        TextStyle::Body,
+    );
+    galley.size().x + 2.0 * ui.spacing().button_padding.x
 }
 
 /// Draws a button that applies the remedy of a finding, if the remedy was tried and helps.
