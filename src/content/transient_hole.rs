@@ -30,8 +30,8 @@ struct HostFaces {
 
 impl HostFaces {
     /// Attaches the point `p` to the first face that contains it. If no face contains it, it is
-    /// attached to the face for which the smallest barycentric coordinate of `p` is largest. `None`
-    /// if the chosen face has no area.
+    /// attached to the face for which the smallest barycentric coordinate of `p` is largest. Faces
+    /// without area are skipped; `None` if no face is left.
     fn of(p: DVec2, faces: &[[u32; 3]], places: &[DVec2]) -> Option<Self> {
         let mut best: Option<(f64, Self)> = None;
         for &face in faces {
@@ -42,6 +42,11 @@ impl HostFaces {
                 (c - p).perp_dot(a - p) / area,
                 (a - p).perp_dot(b - p) / area,
             ];
+            // A face without area gives coordinates that are NaN or infinite. Neither may be
+            // compared: the minimum ignores NaN.
+            if !weights.iter().all(|weight| weight.is_finite()) {
+                continue;
+            }
             let min_weight = weights.into_iter().fold(f64::INFINITY, f64::min);
             if best.is_none_or(|(max_of_min, _)| min_weight > max_of_min) {
                 best = Some((min_weight, Self { face, weights }));
@@ -50,9 +55,7 @@ impl HostFaces {
                 break;
             }
         }
-        // A face without area gives coordinates that are NaN or infinite.
-        best.filter(|(min_weight, _)| min_weight.is_finite())
-            .map(|(_, host)| host)
+        best.map(|(_, host)| host)
     }
 
     /// Position of the point when the vertices are at `places`.
@@ -190,6 +193,26 @@ mod tests {
         for (p, q) in at.iter().zip(square(1.0)) {
             let expected = q.perp() * 1.5 + DVec2::X * 7.0;
             assert!(p.distance(expected) < 1e-12, "{p} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_face_without_area_does_not_hide_later_faces() {
+        let mut places = square(2.0);
+        places.reverse();
+        let faces = [[0, 1, 2], [0, 2, 3]];
+        let hole = |faces: &[[u32; 3]]| {
+            TransientHole::new(
+                &square(1.0),
+                faces,
+                &places,
+                TimeWindow::whole(Side::Source),
+            )
+        };
+        // Lines that go through the hole, past it, and a point.
+        for flat in [[0, 2, 0], [0, 1, 1], [3, 3, 3]] {
+            let with_flat = [[flat].as_slice(), &faces].concat();
+            assert_eq!(hole(&with_flat), hole(&faces), "{flat:?}");
         }
     }
 
