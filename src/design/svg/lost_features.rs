@@ -1,7 +1,8 @@
 //! Collects the features of a drawing that were ignored or replaced.
 
 use crate::design::note::ImportNote;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use usvg::roxmltree::Node as Xml;
 
 /// Maximum number of elements that a note names (resource limit: about one line).
@@ -10,13 +11,26 @@ const NAMED_ELEMENTS: usize = 3;
 /// Maximum number of features that are named (resource limit: one line each).
 const MAX_FEATURES: usize = 64;
 
+/// Feature, and what was done instead of it; `None` if it was ignored.
+type FeatureTreatment = (String, Option<&'static str>);
+
 /// Features of a drawing that were ignored or replaced, with the elements that use them.
+///
+/// There are at most [`MAX_FEATURES`] features; further ones are counted together. Each element
+/// counts once for each feature, however often it is copied. Elements are distinguished by their
+/// descriptions.
 #[derive(Debug, Default)]
-pub(super) struct LostFeatures(BTreeMap<(String, Option<&'static str>), LosingElements>);
+pub(super) struct LostFeatures {
+    features: BTreeMap<FeatureTreatment, LosingElements>,
+    /// For each element, by the hash of its description, the bits of the features that it uses.
+    users: HashMap<u64, u128>,
+}
 
 /// Elements that use a feature.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct LosingElements {
+    /// The feature's bit in [`LostFeatures::users`].
+    bit: u128,
     /// Descriptions of the first elements, each once.
     named: Vec<String>,
     count: usize,
@@ -25,52 +39,90 @@ struct LosingElements {
 impl LostFeatures {
     /// Records that a feature of an element was ignored.
     pub(super) fn ignore(&mut self, feature: &str, element: &str) {
-        self.add(feature, None, element);
+        self.add((feature.to_owned(), None), element);
     }
 
     /// Records what was done instead of a feature of an element.
     pub(super) fn replace(&mut self, feature: &str, replacement: &'static str, element: &str) {
-        self.add(feature, Some(replacement), element);
+        self.add((feature.to_owned(), Some(replacement)), element);
     }
 
-    fn add(&mut self, feature: &str, replacement: Option<&'static str>, element: &str) {
-        let key = (feature.to_owned(), replacement);
-        let is_known = self.0.contains_key(&key);
-        let key = match is_known || self.0.len() < MAX_FEATURES {
-            true => key,
-            false => ("other features".to_owned(), None),
-        };
-        let elements = self.0.entry(key).or_default();
-        if elements.named.iter().any(|named| named == element) {
-            return; // copies of an element count once
-        }
-        elements.count += 1;
-        if elements.named.len() < NAMED_ELEMENTS {
+    fn add(&mut self, treatment: FeatureTreatment, element: &str) {
+        let elements = elements_of(&mut self.features, treatment);
+        let is_new = elements.count_user(&mut self.users, hash_of(element));
+        if is_new && elements.named.len() < NAMED_ELEMENTS {
             elements.named.push(element.to_owned());
         }
     }
 
     /// Adds the features of another list.
     pub(super) fn extend(&mut self, other: Self) {
-        for ((feature, replacement), elements) in other.0 {
-            let known = self.0.entry((feature, replacement)).or_default();
-            known.count += elements.count;
-            let free = NAMED_ELEMENTS.saturating_sub(known.named.len());
-            known.named.extend(elements.named.into_iter().take(free));
+        for (treatment, lost) in other.features {
+            let elements = elements_of(&mut self.features, treatment);
+            for name in lost.named {
+                if elements.named.len() < NAMED_ELEMENTS && !elements.named.contains(&name) {
+                    elements.named.push(name);
+                }
+            }
+            let users = other.users.iter().filter(|user| user.1 & lost.bit != 0);
+            for (&hash, _) in users {
+                elements.count_user(&mut self.users, hash);
+            }
         }
     }
 
     /// Returns one note for each feature and replacement.
     pub(super) fn into_notes(self) -> impl Iterator<Item = ImportNote> {
-        self.0.into_iter().map(
-            |((feature, replacement), elements)| ImportNote::LostFeature {
-                feature,
-                replacement: replacement.map(str::to_owned),
-                elements: elements.named,
-                count: elements.count,
-            },
-        )
+        self.features
+            .into_iter()
+            .map(
+                |((feature, replacement), elements)| ImportNote::LostFeature {
+                    feature,
+                    replacement: replacement.map(str::to_owned),
+                    elements: elements.named,
+                    count: elements.count,
+                },
+            )
     }
+}
+
+impl LosingElements {
+    /// Counts an element, given by its hash; returns whether it was not counted before.
+    fn count_user(&mut self, users: &mut HashMap<u64, u128>, hash: u64) -> bool {
+        let bits = users.entry(hash).or_default();
+        let is_new = *bits & self.bit == 0;
+        *bits |= self.bit;
+        self.count += usize::from(is_new);
+        is_new
+    }
+}
+
+/// Returns the elements that use a feature, in the list of all features. If the list is full, those
+/// of all features that are not in it.
+fn elements_of(
+    features: &mut BTreeMap<FeatureTreatment, LosingElements>,
+    treatment: FeatureTreatment,
+) -> &mut LosingElements {
+    // With the entry for all others, there are at most `MAX_FEATURES` + 1 features, one for each
+    // bit.
+    const { assert!(MAX_FEATURES < u128::BITS as usize) };
+    let count = features.len();
+    let is_known = features.contains_key(&treatment);
+    let treatment = match is_known || count < MAX_FEATURES {
+        true => treatment,
+        false => ("other features".to_owned(), None),
+    };
+    features.entry(treatment).or_insert_with(|| LosingElements {
+        bit: 1 << count,
+        named: Vec::new(),
+        count: 0,
+    })
+}
+
+fn hash_of(element: &str) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    element.hash(&mut hasher);
+    hasher.finish()
 }
 
 /// Returns the description of an element for notes: its id, or its tag and line.
@@ -81,5 +133,55 @@ pub(super) fn element_label(node: Xml) -> String {
             let position = node.document().text_pos_at(node.range().start);
             format!("<{}> in line {}", node.tag_name().name(), position.row)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn notes(lost: LostFeatures) -> Vec<(String, Vec<String>, usize)> {
+        let fields = |note| match note {
+            ImportNote::LostFeature {
+                feature,
+                elements,
+                count,
+                ..
+            } => (feature, elements, count),
+            other => panic!("{other}"),
+        };
+        lost.into_notes().map(fields).collect()
+    }
+
+    fn with_elements(feature: &str, elements: std::ops::Range<usize>) -> LostFeatures {
+        let mut lost = LostFeatures::default();
+        for element in elements {
+            lost.ignore(feature, &format!("#{element}"));
+        }
+        lost
+    }
+
+    #[test]
+    fn each_element_counts_once() {
+        let mut lost = with_elements("filter", 0..5);
+        lost.extend(with_elements("filter", 0..5));
+        lost.extend(with_elements("filter", 2..7));
+        // Elements beyond those that are named count once as well.
+        lost.ignore("filter", "#4");
+        let named = ["#0", "#1", "#2"].map(str::to_owned).to_vec();
+        assert_eq!(notes(lost), [("filter".to_owned(), named, 7)]);
+    }
+
+    #[test]
+    fn lists_that_are_put_together_name_a_limited_number_of_features() {
+        let mut lost = LostFeatures::default();
+        for k in 0..1000 {
+            lost.extend(with_elements(&format!("feature {k:04}"), k..k + 2));
+        }
+        let found = notes(lost);
+        assert_eq!(found.len(), MAX_FEATURES + 1);
+        let (feature, named, count) = found.last().expect("others");
+        assert_eq!((feature.as_str(), named.len()), ("other features", 3));
+        assert_eq!(*count, 1001 - MAX_FEATURES);
     }
 }
