@@ -8,7 +8,8 @@ use std::f64::consts::PI;
 /// Maximum depth of nested brackets in an expression (resource limit: the parser recurses).
 const MAX_DEPTH: usize = 32;
 
-/// Usual height of a line in browsers, relative to the font size.
+/// Height of a line, `normal`, relative to the font size (CSS 2.2, section 10.8.1, recommends 1.0
+/// to 1.2; browsers use the font's metrics, which give about the upper end).
 const LINE_HEIGHT: f64 = 1.2;
 
 /// Sizes to which relative units refer, in user units.
@@ -394,6 +395,8 @@ pub(in crate::design::svg) mod tests {
             ("4Q", 96.0 / 25.4, length),
             ("2rem", 32.0, length),
             ("1.5em", 30.0, length),
+            ("2lh", 2.0 * 1.2 * 20.0, length),
+            ("2rlh", 2.0 * 1.2 * 16.0, length),
             ("10vmin", 60.0, length),
             ("50%", 150.0, length),
             ("calc(50% - 10px)", 140.0, length),
