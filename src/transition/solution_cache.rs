@@ -362,6 +362,7 @@ mod tests {
         // Coordinates far away, and a motion of other designs.
         change(&|record| record.places[1][3].x = 1e9);
         change(&|record| record.pieces[0].rings[0].target[0].x = 1e9);
+        change(&|record| record.pieces[0].rotation = 3.5);
         change(&|record| {
             let mut far = vec![vec![DVec2::ZERO; record.places[0].len()]; 3];
             far[1].fill(DVec2::new(1e9, 0.0));

@@ -5,10 +5,14 @@ use crate::compatible::CompatibleMesh;
 use crate::correspondence::{PieceMatch, RingMatch};
 use crate::geometry::{Bounds, DVec2, Regions, Side, signed_area};
 use std::collections::HashSet;
+use std::f64::consts::PI;
 
 /// Maximum distance of a vertex from the outlines, in diameters of both together (tolerance: parts
 /// that appear start close to the outlines).
 const MAX_DISTANCE: f64 = 4.0;
+
+/// Maximum rotation of a piece, in radians (definition: rotations of matches are in (−π, π]).
+const MAX_ROTATION: f64 = PI;
 
 /// Maximum distance between the vertices of an outline and of a stored motion, relative to the
 /// diameter (tolerance: the key of the motion does not distinguish coordinates that are closer).
@@ -41,10 +45,7 @@ pub(super) fn is_of_outlines(
     let cuts = pieces.iter().flat_map(|piece| &piece.cuts);
     let cut_points = cuts.flat_map(|cut| [&cut.outer, &cut.hole]);
     let mesh_points = mesh.source().iter().chain(mesh.target());
-    let angles = pieces
-        .iter()
-        .all(|piece| piece.rotation.abs() < 4.0 && piece.cost.is_finite());
-    angles
+    pieces.iter().all(has_valid_numbers)
         && ring_points
             .chain(cut_points)
             .chain(mesh_points)
@@ -53,6 +54,10 @@ pub(super) fn is_of_outlines(
             let shown = StoredEnd::of(pieces, mesh, side);
             shown.is_outline(&outlines[side.index()], bounds.diameter())
         })
+}
+
+fn has_valid_numbers(piece: &PieceMatch) -> bool {
+    piece.rotation.abs() <= MAX_ROTATION && piece.cost.is_finite()
 }
 
 fn both_bounds(outlines: &[Regions; 2]) -> Bounds {
@@ -110,5 +115,23 @@ impl StoredEnd {
             && outline
                 .rings()
                 .all(|ring| ring.points().iter().all(is_near))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotations_of_up_to_half_a_turn_are_valid() {
+        let is_valid = |rotation: f64| {
+            has_valid_numbers(&PieceMatch {
+                rotation,
+                ..PieceMatch::default()
+            })
+        };
+        assert!([0.0, 1.5, PI, -PI].into_iter().all(is_valid));
+        let beyond = [PI.next_up(), -3.9, 1e300, f64::INFINITY, f64::NAN];
+        assert!(!beyond.into_iter().any(is_valid));
     }
 }
