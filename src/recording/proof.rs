@@ -18,11 +18,13 @@
 //! designs, so orientations are exact even for faces smaller than rounding.
 //!
 //! - `bernstein`: polynomials with error bounds; `vertex_curve`: the curves of vertices
+//! - `bisection`: the limits and the shared result of both proofs
 //! - `folds`: the first face in an interval that may fold; `meetings`: the earliest time in an
 //!   interval at which outlines may meet
 //! - `drawn_loop`: a boundary loop that is examined for meetings
 
 mod bernstein;
+mod bisection;
 mod drawn_loop;
 mod folds;
 mod meetings;

@@ -2,21 +2,11 @@
 //! signed area is not proved to be positive.
 
 use super::bernstein::{BernsteinPolynomial, BernsteinProducts, EPS, EndSign};
+use super::bisection::{Bisection, EarliestFailure, MAX_HALVINGS};
 use super::vertex_curve::{IntervalCurves, VertexCurve};
 use crate::geometry::{DVec2, orient2d};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
-use std::cell::Cell;
-use std::sync::atomic::{AtomicU64, Ordering};
-
-/// Maximum number of times that an interval is halved to prove that a face does not fold or that a
-/// vertex stays off an edge (tolerance: the last part is 2⁻³⁰ of the interval, about 1e-9).
-pub(super) const MAX_HALVINGS: u32 = 30;
-
-/// Maximum number of parts of an interval that are examined for one face, or for one vertex and
-/// edge (resource limit: where rounding errors are as large as the distances, up to 2³⁰ parts would
-/// be examined).
-const MAX_PARTS: u32 = 4096;
 
 /// Returns the earliest time in the interval at which a face is not proved to be positively
 /// oriented, as the fraction s of the interval, and the index of that face. `at_ends` marks the
@@ -52,64 +42,6 @@ pub(super) fn first_fold(
     let first = failures.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     check_cancelled(progress)?;
     Ok(first)
-}
-
-/// Earliest time at which any thread has failed to prove that a face does not fold, or that a
-/// vertex stays off an edge, as the fraction s of the interval. No thread needs to examine later
-/// times.
-pub(super) struct EarliestFailure(AtomicU64);
-
-impl Default for EarliestFailure {
-    fn default() -> Self {
-        Self(AtomicU64::new(f64::INFINITY.to_bits()))
-    }
-}
-
-impl EarliestFailure {
-    /// Returns whether a proof has already failed at a time before `s`.
-    fn is_before(&self, s: f64) -> bool {
-        // Relaxed ordering suffices, because the number only saves work. The bits of non-negative
-        // floats are ordered like the floats.
-        self.0.load(Ordering::Relaxed) < s.to_bits()
-    }
-
-    /// Records that a proof has failed at `s`, and returns `s`.
-    fn report(&self, s: f64) -> f64 {
-        self.0.fetch_min(s.to_bits(), Ordering::Relaxed);
-        s
-    }
-}
-
-/// Bisection of an interval for one face, or for one vertex and edge.
-pub(super) struct Bisection<'e> {
-    earliest: &'e EarliestFailure,
-    parts_left: Cell<u32>,
-}
-
-impl<'e> Bisection<'e> {
-    pub(super) fn new(earliest: &'e EarliestFailure) -> Self {
-        Self {
-            earliest,
-            parts_left: Cell::new(MAX_PARTS),
-        }
-    }
-
-    /// Returns whether a proof has already failed at a time before `s`.
-    pub(super) fn is_after_failure(&self, s: f64) -> bool {
-        self.earliest.is_before(s)
-    }
-
-    /// Counts an undecided part of the interval; returns whether no further part may be examined.
-    pub(super) fn exhausts_parts(&self) -> bool {
-        let left = self.parts_left.get().saturating_sub(1);
-        self.parts_left.set(left);
-        left == 0
-    }
-
-    /// Records that the proof has failed at `s`, and returns `s`.
-    pub(super) fn report(&self, s: f64) -> f64 {
-        self.earliest.report(s)
-    }
 }
 
 /// Returns twice the signed area of the triangle of three vertices, as a polynomial.
@@ -159,11 +91,11 @@ pub(super) fn first_not_positive(
     halvings: u32,
     search: &Bisection,
 ) -> Option<f64> {
-    if search.is_after_failure(from) || of.is_positive(ends) {
+    if search.earliest.is_before(from) || of.is_positive(ends) {
         return None;
     }
     if ends[0] == EndSign::NotPositive || halvings == 0 || search.exhausts_parts() {
-        return Some(search.report(from));
+        return Some(search.earliest.report(from));
     }
     let middle = from.midpoint(to);
     let [left, right] = of.halves();

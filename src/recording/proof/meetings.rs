@@ -7,8 +7,9 @@
 //! edge. Loops that cross from the beginning are found directly.
 
 use super::bernstein::{BernsteinProducts, EndSign};
+use super::bisection::{Bisection, EarliestFailure, MAX_HALVINGS};
 use super::drawn_loop::DrawnLoop;
-use super::folds::{Bisection, EarliestFailure, MAX_HALVINGS, product, twice_area};
+use super::folds::{product, twice_area};
 use super::vertex_curve::{IntervalCurves, VertexCurve};
 use crate::geometry::{DVec2, EdgeCrossing, crossings, orient2d};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
@@ -337,7 +338,7 @@ impl<'a> MeetingSearch<'a> {
         halvings: u32,
         search: &Bisection,
     ) -> Option<f64> {
-        if search.is_after_failure(from) {
+        if search.earliest.is_before(from) {
             return None;
         }
         let [a, b, p] = curves.each_ref();
@@ -351,7 +352,7 @@ impl<'a> MeetingSearch<'a> {
             return None;
         }
         if halvings == 0 || search.exhausts_parts() {
-            return Some(search.report(from));
+            return Some(search.earliest.report(from));
         }
         let middle = from.midpoint(to);
         let halvings = halvings - 1;
