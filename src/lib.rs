@@ -94,6 +94,8 @@
 //!
 //! Coordinates are `f64` with y up. The core has no global state, logs nothing and prints nothing.
 
+#![forbid(unsafe_code)]
+
 mod io;
 pub mod settings;
 pub mod time;

@@ -1,4 +1,3 @@
-//! Background jobs, and the allocator settings of a process that runs many threads.
+//! Background jobs.
 
-pub mod allocator;
 pub mod job;

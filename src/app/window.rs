@@ -19,7 +19,6 @@ use crate::app::files::drop::DropSupport;
 use crate::app::files::file_watcher::FileWatcher;
 use crate::app::files::gallery_thumbnails;
 use crate::app::input::intent::Intent;
-use crate::app::jobs::allocator::limit_arenas;
 use crate::app::jobs::job;
 use crate::app::logic::LogicPlugin;
 use crate::app::no_window::{NoWindowError, catch_no_window};
@@ -72,7 +71,6 @@ fn program(options: AppOptions) -> App {
         film_memory,
         starts_talk,
     } = options;
-    limit_arenas();
     let autosave = autosave();
     let recent = StoredRecentFiles::of_file(RecentFiles::default_path());
     let last_export = recent.export_folder().map(Path::to_owned);

@@ -5,7 +5,6 @@ use crate::geometry::{DVec2, Regions};
 use crate::transition::arap_build::without_subdivision;
 use crate::transition::drawing_pair::DrawingPair;
 use crate::transition::options::TransitionOptions;
-use fnv::FnvHasher;
 use serde::{Deserialize, Serialize};
 use std::hash::Hasher;
 use std::sync::Arc;
@@ -69,6 +68,28 @@ impl CachedMatch {
 /// older cached results are computed again.
 const SOLVER_VERSION: u32 = 3;
 
+/// The hash function FNV-1a with 64 bits (Fowler, Noll, Vo; RFC 9923). Unlike the standard library's
+/// hash functions it is the same in all versions, so that keys in documents stay valid.
+struct FnvHasher(u64);
+
+impl Default for FnvHasher {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Hasher for FnvHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
+}
+
 /// Returns the key of a match: a hash of the outlines, their appearance, and all options that
 /// influence the result.
 pub(in crate::transition) fn cache_key(
@@ -110,4 +131,22 @@ pub(in crate::transition) fn cache_key(
         hasher.write(format!("{paint:?} {} {}", look.is_lined, look.name).as_bytes());
     }
     format!("{:016x}", hasher.finish())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_of_keys_is_fnv_1a() {
+        let hash = |text: &str| {
+            let mut hasher = FnvHasher::default();
+            hasher.write(text.as_bytes());
+            hasher.finish()
+        };
+        // The test vectors of RFC 9923.
+        assert_eq!(hash(""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(hash("a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(hash("foobar"), 0x8594_4171_f739_67e8);
+    }
 }

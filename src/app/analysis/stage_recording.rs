@@ -9,7 +9,6 @@ use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
 use crate::app::analysis::is_same;
 use crate::app::analysis::transition_memo::TransitionMemo;
-use crate::app::jobs::allocator::return_free_memory;
 use crate::app::jobs::job::{BackgroundJob, JobError};
 use crate::app::session::state::Session;
 use crate::recording::{RecordingError, RecordingOptions};
@@ -108,11 +107,7 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<StageRecording>) {
         now.job = now.transition.clone().map(|transition| {
             BackgroundJob::start("the recording", move |progress| {
                 let recorded = transition.record(&options, progress);
-                let proved = recorded.and_then(|_| transition.prove(&options, progress));
-                // By now the previous transition has been dropped, so its memory can be returned to
-                // the system.
-                return_free_memory();
-                proved
+                recorded.and_then(|_| transition.prove(&options, progress))
             })
         });
     }

@@ -3,13 +3,12 @@
 
 use std::collections::HashMap;
 use std::fs;
-use std::hash::Hasher;
+use std::hash::{DefaultHasher, Hasher};
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::SystemTime;
 
 use bevy::prelude::Resource;
-use fnv::FnvHasher;
 use image::{ImageFormat, RgbaImage};
 
 use crate::io::atomic_file::AtomicFile;
@@ -102,7 +101,7 @@ impl GalleryStripCache {
 fn version() -> Option<String> {
     let file = std::env::current_exe().and_then(fs::metadata).ok()?;
     let since = file.modified().ok()?.duration_since(SystemTime::UNIX_EPOCH);
-    let mut hasher = FnvHasher::default();
+    let mut hasher = DefaultHasher::new();
     hasher.write(env!("CARGO_PKG_VERSION").as_bytes());
     hasher.write_u64(file.len());
     hasher.write_u128(since.ok()?.as_nanos());
