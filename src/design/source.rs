@@ -12,7 +12,7 @@
 //! `glyph:FORM` is written `./glyph:FORM`. The text after `glyph:` is percent-decoded, so
 //! `%40` stands for `@` and `%25` for `%`.
 
-use crate::io::sanitize::SanitizedLine;
+use crate::io::sanitize::SanitizedName;
 use std::borrow::Cow;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -132,7 +132,7 @@ impl DesignSource {
                 (path.file_stem().unwrap_or(path.as_os_str())).to_string_lossy()
             }
         };
-        SanitizedLine(name).to_string()
+        SanitizedName(&name).to_string()
     }
 
     /// Returns the notation of the source. [`DesignSource::parse`] restores the same source,

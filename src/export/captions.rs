@@ -4,6 +4,7 @@
 use super::drawing::Drawing;
 use crate::colour::{Paint, Rgb};
 use crate::geometry::DVec2;
+use crate::io::sanitize::without_direction_controls;
 use crate::transition::TransitionStop;
 
 /// Share of the way from a caption's t to the midpoint between this caption and its neighbour.
@@ -43,11 +44,13 @@ impl Captions {
         ground: Rgb,
     ) -> Self {
         let named = stops.iter().filter(|stop| !stop.name.is_empty());
-        let mut names: Vec<(f64, String)> = named.map(|s| (s.t, s.name.clone())).collect();
+        let mut names: Vec<(f64, String)> = named
+            .map(|s| (s.t, without_direction_controls(&s.name)))
+            .collect();
         if names.is_empty() {
             let designs = designs.into_iter().enumerate();
             names = designs
-                .map(|(k, name)| (k as f64, name.to_owned()))
+                .map(|(k, name)| (k as f64, without_direction_controls(name)))
                 .collect();
         }
         names.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -15,7 +15,7 @@ use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};
 use crate::io::escape::csv_line;
 use crate::io::file_name::safe_file_name;
-use crate::io::sanitize::SanitizedLine;
+use crate::io::sanitize::SanitizedName;
 use crate::measure::{BlendMeasures, BlendSampler};
 use crate::project::SavedBlend;
 use crate::settings::named;
@@ -193,8 +193,8 @@ impl Catalogue {
             let view = PlaneView::fit_cell(bounds, layout.size, corner, inner);
             self.draw(space, k, style, &view, &mut drawing);
             let words = match entry.saved.stars {
-                0 => SanitizedLine(&entry.saved.name).to_string(),
-                stars => format!("{}, {stars} of 5", SanitizedLine(&entry.saved.name)),
+                0 => SanitizedName(&entry.saved.name).to_string(),
+                stars => format!("{}, {stars} of 5", SanitizedName(&entry.saved.name)),
             };
             let [width, height] = layout.label_room(inner);
             let room = [width, 0.8 * height];
@@ -223,7 +223,7 @@ impl Catalogue {
         let place_header = ["file", "name", "stars", "note", "x", "y"].map(str::to_owned);
         let designs = space.designs().iter();
         let weights_header =
-            designs.map(|design| format!("weight of {}", SanitizedLine(&design.name)));
+            designs.map(|design| format!("weight of {}", SanitizedName(&design.name)));
         let measures_header = [
             "area",
             "perimeter",
@@ -245,9 +245,9 @@ impl Catalogue {
             let number_or_empty = |value: Option<f64>| value.map_or_else(String::new, number);
             let place_cells = [
                 stem(k, saved),
-                SanitizedLine(&saved.name).to_string(),
+                SanitizedName(&saved.name).to_string(),
                 saved.stars.to_string(),
-                SanitizedLine(&saved.note).to_string(),
+                SanitizedName(&saved.note).to_string(),
                 number(saved.at.x),
                 number(saved.at.y),
             ];

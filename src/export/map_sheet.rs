@@ -11,7 +11,7 @@ use super::size::PixelSize;
 use super::view::PlaneView;
 use crate::colour::Rgb;
 use crate::geometry::DVec2;
-use crate::io::sanitize::SanitizedLine;
+use crate::io::sanitize::SanitizedName;
 use crate::space::{DesignSpace, WeightMap};
 use crate::transition::TransitionStyle;
 
@@ -56,7 +56,7 @@ pub fn map_sheet(
 /// Returns the name of the design whose site is exactly at `place`, if any.
 fn name_at(space: &DesignSpace, map: &WeightMap, place: DVec2) -> Option<String> {
     let design = map.sites().iter().position(|site| *site == place)?;
-    Some(SanitizedLine(&space.designs()[design].name).to_string())
+    Some(SanitizedName(&space.designs()[design].name).to_string())
 }
 
 #[cfg(test)]

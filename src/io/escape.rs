@@ -5,18 +5,21 @@
 //! is one function or wrapper for each format, and every writer of the format uses it.
 //!
 //! Guarantees: the text cannot end the place in which it is written, and the file stays
-//! well-formed. [`json_text`] and [`XmlEscaped`] keep all visible characters.
+//! well-formed. [`json_text`] and [`XmlEscaped`] keep all visible characters. Characters that control
+//! the writing direction are removed from all names, so that no name looks like another one or
+//! changes the order of the text around it.
 
 use std::fmt::{self, Write};
 
 use serde::Serialize;
 
-use super::sanitize::is_hidden;
+use super::sanitize::{is_direction_control, is_hidden, without_direction_controls};
 
 /// Text escaped for XML and HTML: for element content and for attributes in quotes of either kind.
 ///
 /// Characters that XML forbids, and other control characters, become the replacement character.
 /// Line breaks and tabs become spaces, as attributes are normalised (XML 1.0, section 3.3.3).
+/// Characters that control the writing direction are removed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct XmlEscaped<'a>(pub &'a str);
 
@@ -30,6 +33,7 @@ impl fmt::Display for XmlEscaped<'_> {
                 '"' => f.write_str("&quot;")?,
                 '\'' => f.write_str("&#39;")?,
                 '\t' | '\n' | '\r' => f.write_char(' ')?,
+                c if is_direction_control(c) => {}
                 c if c.is_control() || is_noncharacter(c) => f.write_char('\u{fffd}')?,
                 c => f.write_char(c)?,
             }
@@ -45,12 +49,14 @@ fn is_noncharacter(c: char) -> bool {
     code & 0xfffe == 0xfffe || (0xfdd0..=0xfdef).contains(&code)
 }
 
-/// Returns a value as JSON on one line, escaped by [`escaped_json`].
+/// Returns a value as JSON on one line, escaped by [`escaped_json`]. Characters that control the
+/// writing direction are removed from its texts.
 ///
 /// The types that are written this way have text keys and finite numbers, so serialisation does not
 /// fail; if it did, the result would be `null`.
 pub(crate) fn json_text(value: &impl Serialize) -> String {
-    escaped_json(&serde_json::to_string(value).unwrap_or_else(|_| "null".to_owned()))
+    let json = serde_json::to_string(value).unwrap_or_else(|_| "null".to_owned());
+    escaped_json(&without_direction_controls(&json))
 }
 
 /// Escapes hidden characters and `<` in JSON text. Both occur within strings only, except for line
@@ -114,7 +120,7 @@ const MAX_DXF_NAME: usize = 255;
 /// Name of a layer, block or style, escaped for a DXF document.
 ///
 /// Characters that the format forbids in names, and control characters, which end a line, become
-/// underscores. Characters beyond ASCII are written as `\U+XXXX`, which readers of all versions
+/// underscores; those that control the writing direction are removed. Characters beyond ASCII are written as `\U+XXXX`, which readers of all versions
 /// decode, whatever the code page. Longer names are cut after [`MAX_DXF_NAME`] characters. An empty
 /// name becomes an underscore.
 #[derive(Clone, Copy, Debug)]
@@ -122,7 +128,8 @@ pub(crate) struct DxfName<'a>(pub &'a str);
 
 impl fmt::Display for DxfName<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = self.0.trim();
+        let name = without_direction_controls(self.0);
+        let name = name.trim();
         if name.is_empty() {
             return f.write_char('_');
         }
@@ -180,7 +187,7 @@ mod tests {
                 let tree = usvg::roxmltree::Document::parse(&document);
                 let tree = tree.unwrap_or_else(|error| panic!("{name:?}: {error}"));
                 let root = tree.root_element();
-                let shown: String = (name.chars())
+                let shown: String = (without_direction_controls(name).chars())
                     .map(|c| match c {
                         '\n' | '\r' | '\t' => ' ',
                         c if c.is_control() || is_noncharacter(c) => '\u{fffd}',
@@ -195,11 +202,11 @@ mod tests {
     }
 
     #[test]
-    fn json_text_reads_back_exactly_and_cannot_end_a_script() {
+    fn json_text_reads_back_and_cannot_end_a_script() {
         for name in HOSTILE {
             let json = json_text(&name);
             let read: String = serde_json::from_str(&json).expect("JSON");
-            assert_eq!(read, name);
+            assert_eq!(read, without_direction_controls(name));
             assert!(!json.contains('<'), "{json}");
             assert!(!json.chars().any(is_hidden), "{json:?}");
         }
@@ -252,7 +259,12 @@ mod tests {
         }
         assert_eq!(DxfName("WALL 1").to_string(), "WALL 1");
         assert_eq!(DxfName("Größe").to_string(), "Gr\\U+00F6\\U+00DFe");
+        assert_eq!(
+            DxfName("\u{202e}WALL\u{200f} 1\u{2069}").to_string(),
+            "WALL 1"
+        );
         assert_eq!(DxfName(" \n").to_string(), "_");
+        assert_eq!(DxfName("\u{202e} \u{2066}").to_string(), "_");
         assert_eq!(DxfName(&"x".repeat(999)).to_string().len(), MAX_DXF_NAME);
     }
 }

@@ -5,7 +5,8 @@
 //! second time, which changes nothing.
 //!
 //! The result has no line breaks, no control characters and no characters that override the
-//! writing direction; they are escaped as in Rust (`\n`, `\u{1b}`). Text longer than
+//! writing direction; they are escaped as in Rust (`\n`, `\u{1b}`). From names and titles, those
+//! that change the direction are removed instead ([`SanitizedName`]). Text longer than
 //! [`MAX_CHARS`] loses its middle, because messages name the file at the start and the remedy at
 //! the end. Escaping is not reversible: backslashes are not escaped.
 
@@ -37,12 +38,34 @@ impl<T: fmt::Display> fmt::Display for SanitizedLine<T> {
     }
 }
 
+/// Wrapper whose `Display` writes a name or a title as one line, without characters that control the
+/// writing direction. Names in scripts from right to left contain such characters legitimately, so
+/// escape sequences would make them hard to read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SanitizedName<'a>(pub &'a str);
+
+impl fmt::Display for SanitizedName<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        SanitizedLine(without_direction_controls(self.0)).fmt(f)
+    }
+}
+
+/// Returns the text without characters that control the writing direction. The order of the other
+/// characters, and so the direction of words, is that of their scripts.
+pub(crate) fn without_direction_controls(text: &str) -> String {
+    text.chars().filter(|&c| !is_direction_control(c)).collect()
+}
+
+/// Returns whether a character controls the writing direction (Unicode UAX #9, section 2). Such
+/// characters can make one name look like another.
+pub(crate) fn is_direction_control(c: char) -> bool {
+    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
 /// Returns whether a character controls the display instead of being visible.
 pub(crate) fn is_hidden(c: char) -> bool {
-    // Line and paragraph separators, and directional formatting characters (Unicode UAX #9),
-    // which can make one name look like another.
-    let is_directional = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    c.is_control() || is_directional
+    let is_separator = matches!(c, '\u{2028}' | '\u{2029}');
+    c.is_control() || is_separator || is_direction_control(c)
 }
 
 /// Returns the character itself, or its escape sequence if it is hidden.
@@ -71,6 +94,28 @@ mod tests {
         ] {
             assert_eq!(sanitized(text), line);
             assert_eq!(sanitized(&sanitized(text)), line);
+        }
+    }
+
+    #[test]
+    fn names_lose_what_controls_their_direction_and_keep_their_words() {
+        let name = |text: &str| SanitizedName(text).to_string();
+        for (text, expected) in [
+            ("\u{202e}gpj.exe\u{202c}", "gpj.exe"),
+            (
+                "a\u{202a}\u{202b}\u{202d}b\u{2066}\u{2067}\u{2068}\u{2069}c",
+                "abc",
+            ),
+            ("\u{200f}שלום 3\u{200e} (עולם)", "שלום 3 (עולם)"),
+            ("\u{61c}نجمة", "نجمة"),
+            // The joiners of Persian and of emoji are no direction controls.
+            (
+                "می\u{200c}خواهم 👩\u{200d}🎨",
+                "می\u{200c}خواهم 👩\u{200d}🎨",
+            ),
+            ("a\nb\u{1b}", "a\\nb\\u{1b}"),
+        ] {
+            assert_eq!(name(text), expected);
         }
     }
 

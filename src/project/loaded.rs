@@ -10,7 +10,7 @@ use crate::correspondence::MatchSettings;
 use crate::design::{Design, DesignForm, DesignSource};
 use crate::geometry::Similarity;
 use crate::io::read::ReadError;
-use crate::io::sanitize::SanitizedLine;
+use crate::io::sanitize::SanitizedName;
 use crate::space::{DesignSpace, SpaceNote, SpaceSpec, WeightMap};
 use crate::transition::{
     BuildError, BuildQuality, PartTime, Transition, TransitionMethod, TransitionNote,
@@ -249,7 +249,7 @@ impl LoadedProject {
             let names: Vec<_> = self.designs.iter().map(|d| d.name.as_str()).collect();
             title_of(&names)
         } else {
-            SanitizedLine(&self.project.title).to_string()
+            SanitizedName(&self.project.title).to_string()
         }
     }
 
@@ -565,7 +565,7 @@ fn placed_part_times(parts: &[PartTime], similarities: &[Similarity; 2]) -> Vec<
 fn read_named(entry: &DesignEntry, folder: Option<&Path>) -> Result<Arc<Design>, ProjectError> {
     let mut design = read(entry, folder)?;
     if !entry.name.is_empty() {
-        design.name = SanitizedLine(&entry.name).to_string();
+        design.name = SanitizedName(&entry.name).to_string();
     }
     Ok(Arc::new(design))
 }

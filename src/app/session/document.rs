@@ -17,7 +17,7 @@ use crate::app::session::unsaved_project::UnsavedProject;
 use crate::design::{Design, DesignSource};
 use crate::geometry::Bounds;
 use crate::io::file_name::safe_file_name;
-use crate::io::sanitize::SanitizedLine;
+use crate::io::sanitize::SanitizedName;
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::{Sequence, Transition, TransitionMethod};
 
@@ -270,7 +270,7 @@ impl OpenDocument {
     /// Name of the project file without extension; `None` if the project has no file.
     fn stem(&self) -> Option<String> {
         let stem = self.path().and_then(Path::file_stem);
-        stem.map(|stem| SanitizedLine(stem.to_string_lossy()).to_string())
+        stem.map(|stem| SanitizedName(&stem.to_string_lossy()).to_string())
     }
 
     /// Title of the project: its explicit title, else the name of its file, else the names of its

@@ -16,7 +16,7 @@ use crate::app::ui::kit::widgets::{
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::content::ContentKind;
 use crate::export::{FilmKind, LayoutPreset, has_ffmpeg};
-use crate::io::sanitize::SanitizedLine;
+use crate::io::sanitize::SanitizedName;
 use crate::settings::Choice;
 
 /// Standard sizes of films: pixels along the shorter side, label, and tooltip.
@@ -283,7 +283,7 @@ fn end_list(
     let name = |at: Option<f64>| match at {
         None => default_name.to_owned(),
         Some(t) => match stops.iter().find(|stop| stop.t == t) {
-            Some(stop) if !stop.name.is_empty() => SanitizedLine(&stop.name).to_string(),
+            Some(stop) if !stop.name.is_empty() => SanitizedName(&stop.name).to_string(),
             _ => format!("t = {t:.3}"),
         },
     };

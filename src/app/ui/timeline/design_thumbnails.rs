@@ -7,7 +7,7 @@ use crate::app::input::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::timeline::ruler::TimelineRuler;
 use crate::app::ui::ui_state::{Intents, UiState};
-use crate::io::sanitize::SanitizedLine;
+use crate::io::sanitize::SanitizedName;
 use crate::project::Project;
 
 /// Handler of pointer input on the thumbnails of designs.
@@ -50,7 +50,7 @@ impl<'a> ThumbnailDrag<'a> {
         let name = self.project.designs[k].display_name();
         let tip = format!(
             "{}. Drag to reorder, right-click to replace, duplicate or remove.",
-            SanitizedLine(&name)
+            SanitizedName(&name)
         );
         let response = response.on_hover_text(tip);
         response.context_menu(|ui| menu(ui, self.project, k, intents));

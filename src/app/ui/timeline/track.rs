@@ -13,7 +13,7 @@ use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::timeline::filmstrip;
 use crate::app::ui::timeline::ruler::TimelineRuler;
 use crate::app::ui::ui_state::{Intents, UiState};
-use crate::io::sanitize::SanitizedLine;
+use crate::io::sanitize::SanitizedName;
 use crate::project::Project;
 use crate::transition::{SequenceLayout, TransitionStop, TransitionStyle, colour_fraction};
 
@@ -178,7 +178,7 @@ fn designs(ui: &Ui, ruler: TimelineRuler, names: &[String]) {
             segment_room
         };
         let text = match name_width >= MIN_NAME_WIDTH {
-            true => format!("{k} {}", SanitizedLine(name)),
+            true => format!("{k} {}", SanitizedName(name)),
             false => k.to_string(),
         };
         let mut job = LayoutJob::simple_singleline(text, FONT, palette.text);
@@ -247,7 +247,7 @@ fn stops(
 /// Returns the name of a stop or, if it has none, its number from left to right.
 fn label(stop: &TransitionStop, places: &[f64]) -> String {
     if !stop.name.is_empty() {
-        return SanitizedLine(&stop.name).to_string();
+        return SanitizedName(&stop.name).to_string();
     }
     let before = places.iter().filter(|place| **place < stop.t).count();
     (before + 1).to_string()
