@@ -1,12 +1,17 @@
 //! Fuzzes the import of polygons, GeoJSON and trusses: any bytes give a design or a one-line error.
 #![no_main]
 
-mod import_check;
+#[path = "../../tests/fuzzed/mod.rs"]
+#[allow(dead_code, unused_imports, reason = "other targets use the rest")]
+mod fuzzed;
+#[path = "../../tests/random/mod.rs"]
+#[allow(dead_code, unused_imports, reason = "other targets use the rest")]
+mod random;
 
 use morphospace::design::Format;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    import_check::check_import(bytes, |format| {
+    fuzzed::check_import(bytes, |format| {
         matches!(format, Format::Polygons | Format::Truss)
     });
 });

@@ -1,10 +1,15 @@
 //! Fuzzes the import of OBJ meshes: any bytes give a design or a one-line error.
 #![no_main]
 
-mod import_check;
+#[path = "../../tests/fuzzed/mod.rs"]
+#[allow(dead_code, unused_imports, reason = "other targets use the rest")]
+mod fuzzed;
+#[path = "../../tests/random/mod.rs"]
+#[allow(dead_code, unused_imports, reason = "other targets use the rest")]
+mod random;
 
 use morphospace::design::Format;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    import_check::check_import(bytes, |format| matches!(format, Format::Obj));
+    fuzzed::check_import(bytes, |format| matches!(format, Format::Obj));
 });

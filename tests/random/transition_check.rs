@@ -40,11 +40,23 @@ pub fn check_transition(source: Rings, target: Rings) -> Result<FilmDefects, Str
     let (Ok(source), Ok(target)) = (source, target) else {
         return Ok(FilmDefects::default());
     };
-    let areas = [&source, &target].map(|d| d.outline(0.0).map_or(0.0, |o| o.area()));
     let transition = Transition::between(source, target).map_err(|e| e.to_string())?;
-    check_positive_faces(&transition)?;
-    check_finite_vertices(&transition)?;
-    let report = film_report(&transition, SAMPLES, &Silent).map_err(|e| e.to_string())?;
+    check_film(&transition)
+}
+
+/// Checks a transition by rigid parts; returns its defects.
+///
+/// # Errors
+/// A description, if a face is not positively oriented in both designs, a vertex is not finite, or
+/// the area at t = 0 or 1 is not that of the design.
+pub fn check_film(transition: &Transition) -> Result<FilmDefects, String> {
+    let areas = transition
+        .designs()
+        .each_ref()
+        .map(|design| design.outline(0.0).map_or(0.0, |outline| outline.area()));
+    check_positive_faces(transition)?;
+    check_finite_vertices(transition)?;
+    let report = film_report(transition, SAMPLES, &Silent).map_err(|e| e.to_string())?;
     for (i, area) in [(0, areas[0]), (SAMPLES - 1, areas[1])] {
         let deviation = (report.samples[i].area / area - 1.0).abs();
         // A comparison with NaN is false, so NaN is tested separately.
