@@ -1,7 +1,7 @@
 //! A project file with a changed match: whatever it contains, the motion is that of the designs.
 //! It is placed, measured, proved and exported.
 
-use crate::random::check_film;
+use crate::random::transition_check::check_film;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;

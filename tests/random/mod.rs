@@ -3,10 +3,10 @@
 //! Used by the tests and by the fuzzer in `fuzz/`.
 
 mod shapes;
-mod transition_check;
+pub mod transition_check;
 
 pub use shapes::{Rings, SeededRandom, polygon};
-pub use transition_check::{FilmDefects, check_film, check_transition};
+pub use transition_check::{FilmDefects, check_transition};
 
 /// Checks the transition between the two random polygons that a seed determines; each has at most
 /// five holes.
