@@ -1,8 +1,8 @@
-//! Bounding-volume hierarchy over the edges of a closed polygon, for ray and proximity queries.
+//! Bounding-volume hierarchy over the edges of closed polygons, for ray and proximity queries.
 //!
-//! Consecutive edges lie near each other, so the list of edges is halved repeatedly in its own
-//! order, without sorting. A ray query takes time roughly proportional to the logarithm of the
-//! number of edges.
+//! The edges are halved repeatedly at the median of their midpoints, along the longer side of their
+//! bounding box. A query for the edges near a short segment takes time roughly proportional to the
+//! logarithm of the number of edges, even if the polygons are nested.
 //!
 //! Guaranteed: the first hit of a ray is the same, to the last bit, as in a search over all edges.
 //! The exception is a ray that runs along an edge: rounding decides whether it hits that edge.
@@ -12,11 +12,11 @@ use super::{Bounds, DVec2, ray_hit_parameter, ring_edges};
 /// Maximum number of edges in a leaf of the hierarchy (heuristic).
 const LEAF_EDGES: usize = 8;
 
-/// Padding of the boxes, as a fraction of the polygon's diameter (tolerance: far above the rounding
-/// of a ray's hit, far below the size of an edge).
+/// Padding of the boxes, as a fraction of the diameter of all edges (tolerance: far above the
+/// rounding of a ray's hit, far below the size of an edge).
 const PADDING: f64 = 1e-9;
 
-/// Edges of a closed polygon with a hierarchy of boxes.
+/// Edges of closed polygons with a hierarchy of boxes.
 #[derive(Debug)]
 pub(crate) struct EdgeBvh {
     edges: Vec<(DVec2, DVec2)>,
@@ -29,26 +29,45 @@ pub(crate) struct EdgeBvh {
 impl EdgeBvh {
     /// Builds the hierarchy of a closed polygon.
     pub(crate) fn of(points: &[DVec2]) -> Self {
-        let mut boxes = Self {
-            edges: ring_edges(points).collect(),
+        Self::of_edges(ring_edges(points).collect())
+    }
+
+    /// Builds the hierarchy of a list of edges.
+    pub(crate) fn of_edges(edges: Vec<(DVec2, DVec2)>) -> Self {
+        let count = edges.len();
+        let bounds = Bounds::of(edges.iter().flat_map(|&(a, b)| [a, b]));
+        let padding = PADDING * bounds.map_or(0.0, |bounds| bounds.diameter());
+        let mut hierarchy = Self {
+            edges,
             boxes: Vec::new(),
         };
-        let padding = PADDING * Bounds::diameter_of(points);
-        boxes.enclose(0, points.len(), padding);
-        boxes
+        hierarchy.enclose(0, count, padding);
+        hierarchy
+    }
+
+    /// Returns the edges, in no particular order.
+    pub(crate) fn edges(&self) -> &[(DVec2, DVec2)] {
+        &self.edges
     }
 
     /// Appends the box of the edges `from..to`. If there are too many edges for a leaf, then
-    /// appends the subtrees of the two halves of this range.
+    /// divides them into two halves and appends the subtrees of these.
     fn enclose(&mut self, from: usize, to: usize, padding: f64) {
-        let ends = self.edges[from..to].iter().flat_map(|&(a, b)| [a, b]);
-        let Some(bounds) = Bounds::of(ends) else {
+        let edges = &mut self.edges[from..to];
+        let Some(bounds) = Bounds::of(edges.iter().flat_map(|&(a, b)| [a, b])) else {
             return;
         };
         let own = self.boxes.len();
         self.boxes.push((bounds.padded(padding), own));
         if to - from > LEAF_EDGES {
-            let middle = from + (to - from) / 2;
+            let half = (to - from) / 2;
+            let size = bounds.size();
+            let along = |&(a, b): &(DVec2, DVec2)| match size.x >= size.y {
+                true => a.x + b.x,
+                false => a.y + b.y,
+            };
+            edges.select_nth_unstable_by(half, |a, b| along(a).total_cmp(&along(b)));
+            let middle = from + half;
             self.enclose(from, middle, padding);
             // The index of the second half is known only now that the first half is complete.
             self.boxes[own].1 = self.boxes.len();
@@ -73,8 +92,8 @@ impl EdgeBvh {
         nearest
     }
 
-    /// Returns whether `is` holds for an edge near the box `place`. Tests all edges whose bounding
-    /// boxes meet `place`, and some others, until one satisfies `is`.
+    /// Returns whether `is` holds for an edge near the box `place`, that is, for an edge whose
+    /// bounding box meets `place`.
     pub(crate) fn any_edge_near(&self, place: &Bounds, is: &dyn Fn([DVec2; 2]) -> bool) -> bool {
         !self.boxes.is_empty() && self.any_within(place, is, 0, 0, self.edges.len())
     }
@@ -94,7 +113,15 @@ impl EdgeBvh {
             return false;
         }
         if to - from <= LEAF_EDGES {
-            return self.edges[from..to].iter().any(|&(a, b)| is([a, b]));
+            let is_near = |a: DVec2, b: DVec2| {
+                let bounds = Bounds {
+                    min: a.min(b),
+                    max: a.max(b),
+                };
+                bounds.meets(place)
+            };
+            let mut edges = self.edges[from..to].iter();
+            return edges.any(|&(a, b)| is_near(a, b) && is([a, b]));
         }
         let middle = from + (to - from) / 2;
         self.any_within(place, is, node + 1, from, middle)

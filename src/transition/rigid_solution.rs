@@ -93,7 +93,7 @@ fn without_collisions(
     let (mut sample_times, mut first) = (SampleTimes::default(), None);
     let mut previous_collisions = Vec::new();
     loop {
-        let placed = place_unmatched_parts(
+        let (placed, is_limited) = place_unmatched_parts(
             solution.clone(),
             layers,
             &sample_times,
@@ -111,7 +111,9 @@ fn without_collisions(
         };
         let collision_times = failed_proof.births();
         let current = (solution, failed_proof);
+        // A search that reached its limit of work is not repeated.
         if collision_times.is_empty()
+            || is_limited
             || previous_collisions.len() == MAX_REFINEMENTS
             || previous_collisions.last() == Some(&collision_times)
         {
@@ -149,7 +151,8 @@ pub(super) fn with_requested_options(
     stiffen_folds(solved.rebuilt(requested, progress)?, progress)
 }
 
-/// Gives each unmatched part a position and a time window.
+/// Gives each unmatched part a position and a time window. Also returns whether the search for the
+/// positions reached its limit of work.
 ///
 /// # Errors
 /// If the motion cannot be solved or the work is cancelled.
@@ -159,7 +162,7 @@ fn place_unmatched_parts(
     sample_times: &SampleTimes,
     quality: BuildQuality,
     progress: &dyn Progress,
-) -> Result<RigidSolution, BuildError> {
+) -> Result<(RigidSolution, bool), BuildError> {
     let options = solution.arap.options();
     let obstacles = (&solution.holes[..], layers, sample_times);
     let placed = placement::placed(
@@ -175,14 +178,15 @@ fn place_unmatched_parts(
                 time_windows: &placed.lives,
                 stiffness: solution.arap.stiffness(),
             };
-            RigidSolution {
+            let placed_solution = RigidSolution {
                 arap: Arap::with_outline_parameters(&placed.mesh, options, parameters, progress)?,
                 matched: placed.matched,
                 swelling: placed.swelling,
                 // The holes stay valid, because they lie in matched pieces, which were not moved.
                 ..solution
-            }
+            };
+            (placed_solution, placed.is_limited)
         }
-        None => solution,
+        None => (solution, false),
     })
 }

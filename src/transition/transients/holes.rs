@@ -8,7 +8,7 @@
 //! it. Crossings are detected only at sample times; those between two sample times are missed.
 
 use super::boundary_loops::SharedPartLoops;
-use super::layered_outline::LayeredOutline;
+use super::layered_outline::{LayeredEdges, LayeredOutline};
 use super::layers::PieceLayers;
 use super::sample_times::SampleTimes;
 use super::schedule::{TransientSchedule, eighths};
@@ -144,8 +144,10 @@ struct HoleScene {
     times: Vec<f64>,
     /// Positions of all vertices at each time.
     places: Vec<Vec<DVec2>>,
-    /// Outlines of the matched parts, and of the holes placed so far, at each time.
-    outlines: Vec<Vec<LayeredOutline>>,
+    /// Edges of the matched parts at each time.
+    parts: Vec<LayeredEdges>,
+    /// Edges of the holes placed so far, at each time.
+    placed: Vec<LayeredEdges>,
 }
 
 impl HoleScene {
@@ -156,15 +158,16 @@ impl HoleScene {
         let at = |placer: &mut Placer, &t: &f64| {
             placer.place(t);
             let places = placer.placement().in_frame.clone();
-            let outlines = walks.outlines(&places, levels);
-            (places, outlines)
+            let parts = LayeredEdges::of(&walks.outlines(&places, levels));
+            (places, parts)
         };
         let all = times.par_iter().map_init(|| film.placer(), at);
-        let (places, outlines) = all.unzip();
+        let (places, parts) = all.unzip();
         Self {
             times,
             places,
-            outlines,
+            parts,
+            placed: Vec::new(),
         }
     }
 
@@ -178,7 +181,7 @@ impl HoleScene {
         mut timetable: TransientSchedule,
         progress: &dyn Progress,
     ) -> Result<Vec<(usize, TimeWindow, usize)>, Cancelled> {
-        let of_both = self.outlines[0].len();
+        self.placed = self.times.iter().map(|_| LayeredEdges::default()).collect();
         let mut lives = Vec::new();
         for &(k, known) in order {
             check_cancelled(progress)?;
@@ -192,9 +195,6 @@ impl HoleScene {
             self.add(&hole, level);
             lives.push((k, life, crossed));
         }
-        self.outlines
-            .iter_mut()
-            .for_each(|all| all.truncate(of_both));
         Ok(lives)
     }
 
@@ -236,29 +236,25 @@ impl HoleScene {
     /// Returns the number of sample times, at most `most`, at which the hole crosses itself or
     /// something else.
     fn crossed(&self, hole: &TransientHole, level: usize, most: usize) -> usize {
-        let steps = self
-            .times
-            .iter()
-            .zip(self.places.iter().zip(&self.outlines));
-        let crosses = |&(&t, (places, others)): &(&f64, (&Vec<DVec2>, &Vec<LayeredOutline>))| {
-            let ring = hole
-                .ring_at(places, t)
-                .map(|ring| LayeredOutline::of(ring, level));
+        let crosses = |&step: &usize| {
+            let ring = hole.ring_at(&self.places[step], self.times[step]);
+            let ring = ring.map(|ring| LayeredOutline::of(ring, level));
             ring.is_some_and(|ring| {
-                ring.crosses(&ring) || others.iter().any(|other| ring.crosses(other))
+                let placed = self.placed.get(step);
+                ring.crosses_itself()
+                    || self.parts[step].are_crossed_by(&ring)
+                    || placed.is_some_and(|placed| placed.are_crossed_by(&ring))
             })
         };
-        steps.filter(crosses).take(most).count()
+        (0..self.times.len()).filter(crosses).take(most).count()
     }
 
     fn add(&mut self, hole: &TransientHole, level: usize) {
-        let steps = self
-            .times
-            .iter()
-            .zip(self.places.iter().zip(&mut self.outlines));
-        for (&t, (places, outlines)) in steps {
-            let ring = hole.ring_at(places, t);
-            outlines.extend(ring.map(|ring| LayeredOutline::of(ring, level)));
+        let steps = self.times.iter().zip(&self.places).zip(&mut self.placed);
+        for ((&t, places), placed) in steps {
+            if let Some(ring) = hole.ring_at(places, t) {
+                placed.add(&LayeredOutline::of(ring, level));
+            }
         }
     }
 }

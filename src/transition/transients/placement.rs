@@ -29,9 +29,9 @@ use crate::transition::options::BuildQuality;
 use crate::warp::{Arap, TimeWindow};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
-/// Number of largest parts whose positions are searched (resource limit: each search examines all
-/// other parts at every sample time).
-const SEARCHED: usize = 100;
+/// Number of vertices that the search for positions examines (resource limit: ten million take
+/// about 5 s if all outlines are nested). The largest parts are searched first.
+const MAX_EXAMINED: u64 = 5_000_000;
 
 /// Returns the initial time windows: [0, 1] for a piece that exists in only one design, `None` for
 /// a matched piece.
@@ -79,6 +79,8 @@ pub(in crate::transition) struct PlacedTransients {
     pub lives: Vec<Option<TimeWindow>>,
     /// Indices of the pieces that swell, that is, grow in thickness within their outline.
     pub swelling: Vec<usize>,
+    /// Whether the search ended early because it had examined [`MAX_EXAMINED`] vertices.
+    pub is_limited: bool,
 }
 
 /// Places all parts that exist in only one design. Returns `None` if there are none, or if rounding
@@ -93,9 +95,9 @@ pub(in crate::transition) fn placed(
     quality: BuildQuality,
     progress: &dyn Progress,
 ) -> Result<Option<PlacedTransients>, Cancelled> {
-    let searched = match quality {
+    let max_examined = match quality {
         BuildQuality::Draft => 0,
-        BuildQuality::Best => SEARCHED,
+        BuildQuality::Best => MAX_EXAMINED,
     };
     let mut lives = lives(matched);
     if lives.iter().all(Option::is_none) {
@@ -107,17 +109,23 @@ pub(in crate::transition) fn placed(
     for (k, (_, hole)) in holes.iter().enumerate() {
         timetable.set(k, hole.window);
     }
-    let prices = |k: usize| scene.prices(&specks[k - holes.len()], film);
+    // Half of the search is left for the choice of positions.
+    let prices = |k: usize| match scene.examined_vertices() < max_examined / 2 {
+        true => scene.prices(&specks[k - holes.len()], film),
+        false => Vec::new(),
+    };
     timetable.plan(holes.len(), prices, progress)?;
     for (rank, speck) in specks.iter().enumerate() {
         check_cancelled(progress)?;
+        let is_searched = scene.examined_vertices() < max_examined;
         scene.place(
             speck,
             (&mut timetable, holes.len() + rank),
             film,
-            rank < searched,
+            is_searched,
         );
     }
+    let is_limited = quality == BuildQuality::Best && scene.examined_vertices() >= max_examined;
     let mut swelling = Vec::new();
     let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
     for (speck, birth) in scene.births() {
@@ -140,5 +148,6 @@ pub(in crate::transition) fn placed(
         mesh,
         lives,
         swelling,
+        is_limited,
     }))
 }

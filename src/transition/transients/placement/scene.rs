@@ -11,12 +11,13 @@ use super::seed_shape::TransientPart;
 use crate::geometry::{Bounds, DVec2, Side};
 use crate::transition::transients::boundary_loops::SharedPartLoops;
 use crate::transition::transients::holes::PieceHole;
-use crate::transition::transients::layered_outline::LayeredOutline;
+use crate::transition::transients::layered_outline::{LayeredEdges, LayeredOutline};
 use crate::transition::transients::layers::PieceLayers;
 use crate::transition::transients::sample_times::{FINE_STEP, SampleTimes};
 use crate::transition::transients::schedule::{TransientSchedule, eighths};
 use crate::warp::{Arap, Placer, TimeWindow, Warp};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Required clearance around a growing part, as a fraction of its current size; it decreases to 0
 /// at full size (heuristic).
@@ -96,6 +97,15 @@ struct SceneTransient<'a> {
     outlines: Vec<Vec<LayeredOutline>>,
 }
 
+/// A part that is not placed yet.
+struct UnplacedTransient {
+    /// The design that has the part.
+    side: Side,
+    /// Outlines of the part in that design.
+    outlines: Vec<LayeredOutline>,
+    edges: LayeredEdges,
+}
+
 /// Everything that is drawn at each sample time, t = 0 and t = 1 included.
 pub(super) struct TransientScene<'a> {
     steps: &'a SampleTimes,
@@ -103,14 +113,17 @@ pub(super) struct TransientScene<'a> {
     outlines: Vec<Vec<LayeredOutline>>,
     /// Holes that exist in only one design and are visible, at each sample time.
     holes: Vec<Vec<LayeredOutline>>,
+    /// Edges of `outlines`, `holes` and the parts that are already placed, at each sample time.
+    edges: Vec<LayeredEdges>,
     /// Parts that are already placed.
     born: Vec<SceneTransient<'a>>,
-    /// Parts that are not placed yet: the design that has each part, and its outlines in that
-    /// design. The next part to be placed is the last entry.
-    unplaced: Vec<(Side, Vec<LayeredOutline>)>,
+    /// Parts that are not placed yet. The next part to be placed is the last entry.
+    unplaced: Vec<UnplacedTransient>,
     bounds: Bounds,
     /// Candidate positions, in addition to those along the part's own outline.
     grid: Vec<DVec2>,
+    /// Vertices of candidate outlines that were examined at a sample time, over all parts so far.
+    examined: AtomicU64,
 }
 
 impl<'a> TransientScene<'a> {
@@ -132,18 +145,36 @@ impl<'a> TransientScene<'a> {
             (walks.outlines(places, levels), there.collect())
         };
         let all = steps.times().par_iter().map_init(|| film.placer(), at);
-        let (outlines, holes): (Vec<Vec<LayeredOutline>>, _) = all.unzip();
+        let (outlines, holes): (Vec<Vec<LayeredOutline>>, Vec<Vec<_>>) = all.unzip();
+        let drawn = outlines.iter().zip(&holes);
+        let edges = drawn.map(|(parts, holes)| LayeredEdges::of(parts.iter().chain(holes)));
+        let edges = edges.collect();
         let bounds = film.mesh().bounds();
-        let drawn = |speck: &TransientPart| (speck.side, speck.at(speck.ends[speck.side], 1.0));
+        let unplaced = |speck: &TransientPart| {
+            let outlines = speck.at(speck.ends[speck.side], 1.0);
+            UnplacedTransient {
+                side: speck.side,
+                edges: LayeredEdges::of(&outlines),
+                outlines,
+            }
+        };
         Self {
             steps,
             born: Vec::new(),
-            unplaced: specks.iter().rev().map(drawn).collect(),
+            unplaced: specks.iter().rev().map(unplaced).collect(),
             outlines,
             holes,
+            edges,
             grid: grid(bounds, specks.len()),
             bounds,
+            examined: AtomicU64::new(0),
         }
+    }
+
+    /// Returns the number of vertices of candidate outlines that were examined at a sample time,
+    /// over all parts so far. It does not depend on the number of threads.
+    pub(super) fn examined_vertices(&self) -> u64 {
+        self.examined.load(Ordering::Relaxed)
     }
 
     /// Places the next part, which has the index `k` in the schedule. If `is_searched` is false,
@@ -162,7 +193,11 @@ impl<'a> TransientScene<'a> {
             timetable.set_growth(k, speck.swelling(film.mesh().diameter()));
         }
         let times = self.steps.times().iter();
-        let outlines = times.map(|&t| birth.at(speck, film, t, 0.0)).collect();
+        let outlines: Vec<Vec<LayeredOutline>> =
+            times.map(|&t| birth.at(speck, film, t, 0.0)).collect();
+        for (edges, outlines) in self.edges.iter_mut().zip(&outlines) {
+            outlines.iter().for_each(|outline| edges.add(outline));
+        }
         self.born.push(SceneTransient {
             speck,
             birth,
@@ -338,6 +373,8 @@ impl<'a> TransientScene<'a> {
             let step = [step, last - step][speck.side];
             let t = self.steps.times()[step];
             let rings = birth.at(speck, film, t, MARGIN);
+            let vertices: usize = rings.iter().map(|ring| ring.points.len()).sum();
+            self.examined.fetch_add(vertices as u64, Ordering::Relaxed);
             let side = speck.side;
             if !(self.crosses_none(step, side, &rings) && self.is_apart(step, side, &rings)) {
                 long += self.steps.weight(step);
@@ -347,21 +384,29 @@ impl<'a> TransientScene<'a> {
     }
 
     /// Returns the outlines, except holes, that a part of design `side` must avoid at a sample
-    /// time. Parts of the other design that are not placed yet are included only if the sample time
-    /// is near the t of that design, because their positions are known only there.
+    /// time.
     fn there(&self, step: usize, side: Side) -> impl Iterator<Item = &LayeredOutline> {
+        let born = self.born.iter().flat_map(move |born| &born.outlines[step]);
+        let placed = self.outlines[step].iter().chain(born);
+        let unplaced = self.unplaced_near(step, side);
+        placed.chain(unplaced.flat_map(|part| &part.outlines))
+    }
+
+    /// Returns the parts of the other design that are not placed yet, if the sample time is near
+    /// the t of that design; their positions are known only there.
+    fn unplaced_near(&self, step: usize, side: Side) -> impl Iterator<Item = &UnplacedTransient> {
         let t = self.steps.times()[step];
         let is_near = [1.0 - t, t][side] <= FINE_STEP;
         let unplaced = self.unplaced.iter();
-        let unplaced = unplaced.filter(move |(of, _)| is_near && *of != side);
-        let unplaced = unplaced.flat_map(|(_, rings)| rings);
-        let born = self.born.iter().flat_map(move |born| &born.outlines[step]);
-        self.outlines[step].iter().chain(born).chain(unplaced)
+        unplaced.filter(move |part| is_near && part.side != side)
     }
 
     fn crosses_none(&self, step: usize, side: Side, rings: &[LayeredOutline]) -> bool {
-        let others = || self.there(step, side).chain(&self.holes[step]);
-        let crosses = |ring: &LayeredOutline| others().any(|other| ring.crosses(other));
+        let crosses = |ring: &LayeredOutline| {
+            let mut unplaced = self.unplaced_near(step, side);
+            self.edges[step].are_crossed_by(ring)
+                || unplaced.any(|part| part.edges.are_crossed_by(ring))
+        };
         !rings.iter().any(crosses)
     }
 
