@@ -5,7 +5,6 @@ use super::error::{ImportError, ImportProblem};
 use super::form::{Design, ImportedOutlines};
 use super::format::Format;
 use super::options::ImportOptions;
-use super::panic_boundary::catch_panic;
 use super::sniff::sniff;
 use super::source::DesignSource;
 use super::text_encoding::{plain_bytes, xml_text};
@@ -13,6 +12,7 @@ use super::truss::Truss;
 use super::{dxf, lettering, obj, polygons, silhouette, svg};
 use crate::io::read;
 use crate::io::read::check_size;
+use crate::work::panic_boundary::catch_panic;
 use std::path::Path;
 
 /// Imports a design from the bytes of a file in any supported format.

@@ -6,9 +6,7 @@
 //! are saved before that, and remain if the program is interrupted. Unless `--one-by-one` is given,
 //! times are measured while other pairs use the other cores.
 
-use std::any::Any;
 use std::io;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -31,6 +29,7 @@ use crate::export::{
 use crate::io::atomic_file::write_error_message;
 use crate::io::sanitize::SanitizedLine;
 use crate::transition::TransitionStyle;
+use crate::work::panic_boundary::catch_panic;
 use crate::work::progress::Progress;
 
 /// Number of frames in a strip of the contact sheet (heuristic).
@@ -255,8 +254,8 @@ impl PairBatchArgs {
             Ok((report.without_samples(), strip))
         };
         // A panic in one pair must not stop the work on the others.
-        let outcome = catch_unwind(AssertUnwindSafe(measure));
-        let (report, strip) = match outcome.unwrap_or_else(|panic| Err(panic_error(&*panic))) {
+        let outcome = catch_panic(measure).unwrap_or_else(|message| Err(panic_error(&message)));
+        let (report, strip) = match outcome {
             Ok((report, strip)) => (Ok(report), strip),
             Err(error) => {
                 // A cell of the table holds one line.
@@ -287,12 +286,9 @@ fn cancelled_message(partial: PartialTable, total: usize) -> Result<String, CliE
 }
 
 /// Returns the error for a panic while a pair was measured.
-fn panic_error(panic: &(dyn Any + Send)) -> CliError {
-    let text = panic.downcast_ref::<&str>().copied();
-    let message = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+fn panic_error(message: &str) -> CliError {
     CliError::Failed(format!(
-        "internal error ({}); please report it with both designs",
-        message.unwrap_or("no message")
+        "internal error ({message}); please report it with both designs"
     ))
 }
 
