@@ -11,7 +11,7 @@ use super::text_encoding::{plain_bytes, xml_text};
 use super::truss::Truss;
 use super::{dxf, lettering, obj, polygons, silhouette, svg};
 use crate::io::read;
-use crate::io::read::check_size;
+use crate::io::read::{ReadError, check_size};
 use crate::work::panic_boundary::catch_panic;
 use std::path::Path;
 
@@ -51,7 +51,7 @@ impl DesignSource {
     /// [`ImportError`] names the source, the position in it and a remedy.
     pub fn import(&self, options: &ImportOptions) -> Result<Design, ImportError> {
         let bytes = match self.file() {
-            Some(path) => read::read(path).map_err(|error| self.error(error.into()))?,
+            Some(path) => read::read(path).map_err(|error| self.error(self.problem(path, error)))?,
             None => Vec::new(),
         };
         self.import_bytes(&bytes, options)
@@ -80,6 +80,17 @@ impl DesignSource {
             }
         };
         contained(read).map_err(|problem| self.error(problem))
+    }
+
+    /// Returns the problem that the file of the source could not be read.
+    fn problem(&self, path: &Path, error: ReadError) -> ImportProblem {
+        match self {
+            Self::File { .. } => error.into(),
+            Self::Text { .. } => ImportProblem::FontFile {
+                path: path.to_owned(),
+                error,
+            },
+        }
     }
 
     fn error(&self, problem: ImportProblem) -> ImportError {

@@ -266,6 +266,20 @@ fn glyphs_and_svg_elements_are_accepted_as_designs() {
 }
 
 #[test]
+fn a_mistyped_font_is_an_error_and_an_at_sign_in_text_is_possible() {
+    let cli = CliFixture::new();
+    let render = |text: &str| format!("render {text} glyph:D --at 0 --size 8x8 --out x.png");
+    for font in ["missing.ttf", "missing.tff", "fonts/missing", "home.org"] {
+        let line = render(&format!("glyph:A@{font}"));
+        cli.fails(1, &line, &format!("font {font}: the file does not exist"));
+        cli.fails(1, &line, "write %40 for an @");
+    }
+    for text in ["glyph:me@home", "glyph:me%40home.org"] {
+        cli.succeeds(&render(text));
+    }
+}
+
+#[test]
 fn the_gallery_is_listed_and_rendered() {
     let cli = CliFixture::new();
     let json = cli.succeeds("gallery --json");
