@@ -1,0 +1,35 @@
+//! Identity of files: whether two paths lead to the same file.
+//!
+//! Paths differ for the same file because of links, `./x` for `x`, or another letter case on a file
+//! system that ignores it. On systems other than Unix, hard links count as different files.
+
+use std::path::Path;
+
+/// Identity of an existing file or folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct FileId(Identity);
+
+/// Device and number of the file on it.
+#[cfg(unix)]
+type Identity = (u64, u64);
+
+/// Path without links, in the spelling of the file system.
+#[cfg(not(unix))]
+type Identity = std::path::PathBuf;
+
+impl FileId {
+    /// Returns the identity of the file to which a path leads; `None` if it leads to no file.
+    pub(crate) fn of(path: &Path) -> Option<Self> {
+        #[cfg(unix)]
+        return std::fs::metadata(path).ok().as_ref().map(Self::of_metadata);
+        #[cfg(not(unix))]
+        return path.canonicalize().ok().map(Self);
+    }
+
+    /// Returns the identity of the file with this metadata.
+    #[cfg(unix)]
+    pub(crate) fn of_metadata(metadata: &std::fs::Metadata) -> Self {
+        use std::os::unix::fs::MetadataExt;
+        Self((metadata.dev(), metadata.ino()))
+    }
+}
