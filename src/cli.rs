@@ -8,6 +8,7 @@ mod catalogue;
 mod check;
 mod error;
 mod gallery;
+mod input_files;
 mod inputs;
 mod laboratory;
 mod new;
