@@ -51,7 +51,9 @@ impl DesignSource {
     /// [`ImportError`] names the source, the position in it and a remedy.
     pub fn import(&self, options: &ImportOptions) -> Result<Design, ImportError> {
         let bytes = match self.file() {
-            Some(path) => read::read(path).map_err(|error| self.error(self.problem(path, error)))?,
+            Some(path) => {
+                read::read(path).map_err(|error| self.error(self.problem(path, error)))?
+            }
             None => Vec::new(),
         };
         self.import_bytes(&bytes, options)

@@ -7,6 +7,7 @@ mod cli_fixture;
 mod hostile_names;
 mod output_files;
 mod pair_tables;
+mod protection;
 mod videos;
 
 use std::fs;
