@@ -19,11 +19,15 @@ type Identity = std::path::PathBuf;
 
 impl FileId {
     /// Returns the identity of the file to which a path leads; `None` if it leads to no file.
+    #[cfg(unix)]
     pub(crate) fn of(path: &Path) -> Option<Self> {
-        #[cfg(unix)]
-        return std::fs::metadata(path).ok().as_ref().map(Self::of_metadata);
-        #[cfg(not(unix))]
-        return path.canonicalize().ok().map(Self);
+        std::fs::metadata(path).ok().as_ref().map(Self::of_metadata)
+    }
+
+    /// Returns the identity of the file to which a path leads; `None` if it leads to no file.
+    #[cfg(not(unix))]
+    pub(crate) fn of(path: &Path) -> Option<Self> {
+        path.canonicalize().ok().map(Self)
     }
 
     /// Returns the identity of the file with this metadata.

@@ -269,7 +269,9 @@ fn glyphs_and_svg_elements_are_accepted_as_designs() {
 #[test]
 fn a_mistyped_font_is_an_error_and_an_at_sign_in_text_is_possible() {
     let cli = CliFixture::new();
-    let render = |text: &str| format!("render {text} glyph:D --at 0 --size 8x8 --out x.png");
+    let render = |text: &str| {
+        format!("render {text} glyph:D --method field --cells 40 --at 0 --size 8x8 --out x.png")
+    };
     for font in ["missing.ttf", "missing.tff", "fonts/missing", "home.org"] {
         let line = render(&format!("glyph:A@{font}"));
         cli.fails(1, &line, &format!("font {font}: the file does not exist"));
