@@ -5,17 +5,13 @@
 
 use std::path::Path;
 
-/// Identity of an existing file or folder.
+/// Identity of an existing file or folder: on Unix its device and its number there, on other systems
+/// its path without links in the spelling of the file system.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct FileId(Identity);
-
-/// Device and number of the file on it.
-#[cfg(unix)]
-type Identity = (u64, u64);
-
-/// Path without links, in the spelling of the file system.
-#[cfg(not(unix))]
-type Identity = std::path::PathBuf;
+pub(crate) struct FileId(
+    #[cfg(unix)] (u64, u64),
+    #[cfg(not(unix))] std::path::PathBuf,
+);
 
 impl FileId {
     /// Returns the identity of the file to which a path leads; `None` if it leads to no file.
