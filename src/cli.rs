@@ -8,6 +8,7 @@ mod catalogue;
 mod check;
 mod error;
 mod gallery;
+mod input_files;
 mod inputs;
 mod laboratory;
 mod new;
@@ -104,8 +105,12 @@ pub enum LaunchOutcome {
 
 /// Parses the command line (program name first) and runs the subcommand, if there is one.
 ///
-/// Does not open the window: the caller does, if [`LaunchOutcome::Window`] is returned.
+/// Does not open the window: the caller does, if [`LaunchOutcome::Window`] is returned. On Unix,
+/// blocks SIGXFSZ for this thread and those that it starts, so that a limit on the size of files
+/// is an error of writing instead of the end of the program.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> LaunchOutcome {
+    #[cfg(unix)]
+    terminal::block_file_size_signal();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     match Cli::try_parse_from(&arguments) {
         Ok(cli) => match cli.command {

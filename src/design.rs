@@ -21,7 +21,6 @@ mod note;
 mod obj;
 mod options;
 mod paint_layer;
-mod panic_boundary;
 mod picture;
 mod polygons;
 mod silhouette;

@@ -1,4 +1,6 @@
-//! Long computations: progress reports, cancellation, and limits on the size of a job.
+//! Long computations: progress reports, cancellation, limits on the size of a job, and panics as
+//! errors.
 
 pub mod budget;
+pub(crate) mod panic_boundary;
 pub mod progress;

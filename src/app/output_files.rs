@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use bevy::prelude::Resource;
 
-use crate::io::atomic_file::AtomicFile;
+use crate::io::atomic_file::{copy_new, copy_over, place_new};
 use crate::io::file_name::safe_file_name;
 
 /// Folder for exported images and films, as the user chose it.
@@ -165,32 +165,9 @@ pub fn move_to_free_path(source_path: &Path, path: &Path) -> Result<PathBuf, Cre
         Some(extension) => (path.file_stem(), format!(".{}", text(Some(extension)))),
         None => (path.file_name(), String::new()),
     };
-    let (_, path) = first_free(folder, &text(stem), &suffix, |path| {
-        // A hard link never overwrites, and the file is complete from its first moment.
-        match std::fs::hard_link(source_path, path) {
-            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
-                copy_new(source_path, path)
-            }
-            linked => linked,
-        }
-    })?;
+    let place = |path: &Path| place_new(source_path, path);
+    let (_, path) = first_free(folder, &text(stem), &suffix, place)?;
     Ok(path)
-}
-
-/// Copies a file to a new path, for other disks and for file systems without hard links.
-fn copy_new(source_path: &Path, path: &Path) -> io::Result<()> {
-    // Reserves the name; the content then replaces the empty file in one step.
-    drop(OpenOptions::new().write(true).create_new(true).open(path)?);
-    copy_over(source_path, path).inspect_err(|_| {
-        std::fs::remove_file(path).ok();
-    })
-}
-
-/// Copies a file to a path in one step; an existing file there is replaced.
-fn copy_over(source_path: &Path, path: &Path) -> io::Result<()> {
-    let mut file = AtomicFile::create(path)?;
-    io::copy(&mut File::open(source_path)?, file.file_mut())?;
-    file.commit()
 }
 
 /// Replaces the file `path`, which the user has confirmed, by a finished file.

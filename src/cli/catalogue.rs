@@ -46,7 +46,9 @@ pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
     let overall = OverallProgress::new(&terminal);
     let building = ProgressSpan::new(&overall, 0.0, 0.7);
-    let (loaded, space, _) = args.inputs.open_space(&args.method, &building)?;
+    let input = args.inputs.read(&args.method, &building)?;
+    let files = input.files.clone();
+    let (loaded, space, _) = input.open_space(&building)?;
     let saved_blends = &loaded.project.map.kept;
     if saved_blends.is_empty() {
         return Err(CliError::Failed(
@@ -63,6 +65,7 @@ pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
             "no saved blend has {min_stars} stars or more"
         )));
     }
+    files.check_outputs(catalogue.paths(&args.out))?;
     let style = &loaded.project.style;
     let requested = args.ground.map(|BackgroundColour(colour)| colour);
     let background = requested.unwrap_or(Some(style.ground));

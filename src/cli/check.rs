@@ -76,7 +76,9 @@ fn check_space(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
     let overall = OverallProgress::new(&terminal);
     let building = ProgressSpan::new(&overall, 0.0, 0.7);
-    let (_, space, build) = inputs.open_space(args.measuring.method(), &building)?;
+    let (_, space, build) = inputs
+        .read(args.measuring.method(), &building)?
+        .open_space(&building)?;
     let measuring = ProgressSpan::new(&overall, 0.7, 1.0);
     let report = measure::space_report(&space, BLENDS, &measuring).map_err(CliError::failed)?;
     let measured = SpaceMeasurement::new(&space, report, build);

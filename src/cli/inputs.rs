@@ -12,6 +12,7 @@ use crate::transition::{Sequence, Transition};
 use crate::work::progress::{Progress, ProgressSpan, checkpoint, run_cancellable};
 
 use super::error::CliError;
+use super::input_files::InputFiles;
 use super::options::MethodArgs;
 
 /// Progress reported once the designs are read, in [0, 1] (heuristic).
@@ -30,6 +31,22 @@ fn help() -> String {
          of a drawing (drawing.svg#ID) or text (glyph:D, or glyph:D@FONT.ttf)",
         Format::or_list_of_names(&Format::ALL)
     )
+}
+
+/// A project with the flags applied, whose designs have not been read yet.
+#[derive(Debug)]
+pub(super) struct InputProject<'a> {
+    /// The project with the flags applied.
+    pub project: Project,
+    /// The files that the command reads: the project, its designs and their fonts.
+    pub files: InputFiles,
+    /// Folder to which the paths of the designs are relative; `None` for a bundled project.
+    folder: Option<PathBuf>,
+    /// Whether the inputs are designs instead of a project.
+    are_designs: bool,
+    method: &'a MethodArgs,
+    /// Time at which reading the inputs began.
+    start: Instant,
 }
 
 /// A project with its designs and built transitions.
@@ -73,65 +90,13 @@ impl InputArgs {
         Self { inputs }
     }
 
-    /// Reads the project, applies the flags, and builds all segments.
-    pub fn open(
+    /// Reads the project without its designs, and applies the flags.
+    pub fn read<'a>(
         &self,
-        method: &MethodArgs,
+        method: &'a MethodArgs,
         progress: &dyn Progress,
-    ) -> Result<OpenedProject, CliError> {
-        let mut loaded = self.load(method, progress)?;
-        let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
-        let sequence = method.build_all(&mut loaded, &building)?;
-        Ok(OpenedProject { loaded, sequence })
-    }
-
-    /// Reads the project, applies the flags, and passes each segment to `take` once it is built.
-    pub fn open_each(
-        &self,
-        method: &MethodArgs,
-        progress: &dyn Progress,
-        mut take: impl FnMut(OpenedPair) -> Result<(), CliError>,
-    ) -> Result<(), CliError> {
+    ) -> Result<InputProject<'a>, CliError> {
         let start = Instant::now();
-        let loaded = self.load(method, progress)?;
-        // Aligning the designs in common coordinates counts as part of the build time.
-        let import_time = start.elapsed();
-        let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
-        for mut segment in loaded.segments() {
-            let start = Instant::now();
-            let transition = method.build(&mut segment, &building)?;
-            take(OpenedPair {
-                loaded: segment,
-                transition,
-                import_time,
-                build_time: start.elapsed(),
-            })?;
-        }
-        Ok(())
-    }
-
-    /// Reads the project, applies the flags, and builds the space of all designs.
-    ///
-    /// Also returns the time that building the space took.
-    pub fn open_space(
-        &self,
-        method: &MethodArgs,
-        progress: &dyn Progress,
-    ) -> Result<(LoadedProject, DesignSpace, Duration), CliError> {
-        let loaded = self.load(method, progress)?;
-        let start = Instant::now();
-        let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
-        let space = loaded.build_space(None, &building);
-        let space = space.map_err(CliError::project_not_built)?;
-        Ok((loaded, space, start.elapsed()))
-    }
-
-    /// Reads the project and its designs, and applies the flags.
-    fn load(
-        &self,
-        method: &MethodArgs,
-        progress: &dyn Progress,
-    ) -> Result<LoadedProject, CliError> {
         checkpoint(progress, "reading", 0.0).map_err(CliError::failed)?;
         // Reading a pipe may block forever, so the input is read on another thread, which allows
         // cancellation.
@@ -139,15 +104,23 @@ impl InputArgs {
         let document = run_cancellable(progress, move || inputs.document());
         let (mut project, folder) = document.map_err(CliError::failed)??;
         method.edit(&mut project)?;
-        let loaded = run_cancellable(progress, move || LoadedProject::load(project, folder));
-        let mut loaded = loaded
-            .map_err(CliError::failed)?
-            .map_err(CliError::failed)?;
-        loaded.patient = method.patient;
-        if self.inputs.len() > 1 {
-            loaded.adopt_drawn_colours();
+        let are_designs = self.inputs.len() > 1;
+        let mut files = InputFiles::default();
+        if let ([path], Some(_)) = (self.inputs.as_slice(), &folder) {
+            files = files.with_file(path);
         }
-        Ok(loaded)
+        if let Some(folder) = &folder {
+            let designs = project.designs.iter().map(|entry| entry.path.as_path());
+            files = files.with_designs(folder, designs);
+        }
+        Ok(InputProject {
+            project,
+            files,
+            folder,
+            are_designs,
+            method,
+            start,
+        })
     }
 
     /// Returns the project and the folder to which its paths are relative; no folder for a bundled
@@ -179,6 +152,72 @@ impl InputArgs {
         let project = Project::read(path).map_err(CliError::failed)?;
         // A file that could be read has a parent folder, so this is never `None`.
         Ok((project, path.parent().map(Path::to_owned)))
+    }
+}
+
+impl InputProject<'_> {
+    /// Reads the designs and builds all segments.
+    pub fn open(self, progress: &dyn Progress) -> Result<OpenedProject, CliError> {
+        let method = self.method;
+        let mut loaded = self.load(progress)?;
+        let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
+        let sequence = method.build_all(&mut loaded, &building)?;
+        Ok(OpenedProject { loaded, sequence })
+    }
+
+    /// Reads the designs, and passes each segment to `take` once it is built.
+    pub fn open_each(
+        self,
+        progress: &dyn Progress,
+        mut take: impl FnMut(OpenedPair) -> Result<(), CliError>,
+    ) -> Result<(), CliError> {
+        let (method, start) = (self.method, self.start);
+        let loaded = self.load(progress)?;
+        // Aligning the designs in common coordinates counts as part of the build time.
+        let import_time = start.elapsed();
+        let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
+        for mut segment in loaded.segments() {
+            let start = Instant::now();
+            let transition = method.build(&mut segment, &building)?;
+            take(OpenedPair {
+                loaded: segment,
+                transition,
+                import_time,
+                build_time: start.elapsed(),
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Reads the designs, and builds the space of all of them.
+    ///
+    /// Also returns the time that building the space took.
+    pub fn open_space(
+        self,
+        progress: &dyn Progress,
+    ) -> Result<(LoadedProject, DesignSpace, Duration), CliError> {
+        let loaded = self.load(progress)?;
+        let start = Instant::now();
+        let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
+        let space = loaded.build_space(None, &building);
+        let space = space.map_err(CliError::project_not_built)?;
+        Ok((loaded, space, start.elapsed()))
+    }
+
+    /// Reads the designs.
+    fn load(self, progress: &dyn Progress) -> Result<LoadedProject, CliError> {
+        let Self {
+            project, folder, ..
+        } = self;
+        let loaded = run_cancellable(progress, move || LoadedProject::load(project, folder));
+        let mut loaded = loaded
+            .map_err(CliError::failed)?
+            .map_err(CliError::failed)?;
+        loaded.patient = self.method.patient;
+        if self.are_designs {
+            loaded.adopt_drawn_colours();
+        }
+        Ok(loaded)
     }
 }
 

@@ -5,10 +5,11 @@ use std::path::{Component, Path, PathBuf};
 use clap::Args;
 
 use crate::design::DesignSource;
-use crate::project::{LoadedProject, Project};
+use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::TransitionSpec;
 
 use super::error::CliError;
+use super::input_files::InputFiles;
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
@@ -52,10 +53,7 @@ pub(super) fn run(args: &NewArgs) -> Result<(), CliError> {
         )));
     }
     if args.out.exists() && !args.force {
-        let path = args.out.display();
-        return Err(CliError::Failed(format!(
-            "`{path}` already exists: choose another name, or add --force to overwrite it"
-        )));
+        return Err(not_saved(ProjectError::AlreadyExists(args.out.clone())));
     }
     write(args)
 }
@@ -63,6 +61,9 @@ pub(super) fn run(args: &NewArgs) -> Result<(), CliError> {
 fn write(args: &NewArgs) -> Result<(), CliError> {
     let folder = folder_of(&args.out);
     let designs = [&args.source, &args.target].into_iter().chain(&args.more);
+    let paths = designs.clone().map(PathBuf::as_path);
+    let inputs = InputFiles::default().with_designs(Path::new(""), paths);
+    inputs.check_outputs([&args.out])?;
     let designs = designs.map(|path| stored_path(path, folder));
     let mut project = Project::from_paths(designs.collect::<Result<Vec<_>, _>>()?);
     args.method.edit(&mut project)?;
@@ -86,10 +87,24 @@ fn write(args: &NewArgs) -> Result<(), CliError> {
             loaded.project.cache_match(k, cached);
         }
     }
-    let saved = loaded.project.save_atomically(&args.out);
-    saved.map_err(CliError::failed)?;
+    let saved = match args.force {
+        true => loaded.project.save_atomically(&args.out),
+        // Another process may have written the file while the designs were read.
+        false => loaded.project.save_new(&args.out),
+    };
+    saved.map_err(not_saved)?;
     output::message(&format!("wrote {}", args.out.display()));
     Ok(())
+}
+
+/// Creates the error for a project that was not saved; for an existing file, suggests `--force`.
+fn not_saved(error: ProjectError) -> CliError {
+    match error {
+        ProjectError::AlreadyExists(_) => {
+            CliError::Failed(format!("{error}, or add --force to overwrite it"))
+        }
+        error => CliError::failed(error),
+    }
 }
 
 /// Returns the folder that contains `path`.

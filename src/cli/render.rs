@@ -24,7 +24,7 @@ use crate::transition::PlayMode;
 use crate::work::progress::{OverallProgress, Progress, ProgressSpan};
 
 use super::error::CliError;
-use super::inputs::{InputArgs, OpenedProject};
+use super::inputs::{InputArgs, InputProject, OpenedProject};
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
@@ -214,19 +214,20 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     check_output_name(args, &target, still_content)?;
     let terminal = Terminal::new();
     let overall = OverallProgress::new(&terminal);
+    let input = args.inputs.read(&args.method, &overall)?;
+    let outputs = output_paths(args, &input.project, &target)?;
+    input.files.check_outputs(outputs)?;
     if let (Some(StillContent::Map(grid)), ExportTarget::Still(kind, path)) =
         (still_content, &target)
     {
-        let (drawing, notes) = draw_map(args, grid, &overall)?;
+        let (drawing, notes) = draw_map(args, input, grid, &overall)?;
         write_still(&drawing, *kind, path).map_err(CliError::failed)?;
         drop(terminal);
         report_notes(notes);
         report_written(std::slice::from_ref(path));
         return Ok(());
     }
-    let opened = args
-        .inputs
-        .open(&args.method, &ProgressSpan::new(&overall, 0.0, 0.5))?;
+    let opened = input.open(&ProgressSpan::new(&overall, 0.0, 0.5))?;
     let writing = ProgressSpan::new(&overall, 0.5, 1.0);
     let written = match (target, still_content) {
         (ExportTarget::Still(kind, path), Some(content)) => {
@@ -378,7 +379,10 @@ fn draw_still(
                     .to_owned(),
             ));
         }
-        StillContent::Map(grid) => draw_map(args, grid, progress)?.0,
+        StillContent::Map(grid) => {
+            let input = args.inputs.read(&args.method, progress)?;
+            draw_map(args, input, grid, progress)?.0
+        }
         StillContent::Methods(count) => {
             let spec = opened.loaded.spec().map_err(CliError::failed)?;
             let rows = MethodRow::all(&spec, progress).map_err(CliError::failed)?;
@@ -390,10 +394,11 @@ fn draw_still(
 /// Draws the map of all designs. Also returns the notes of the designs and of the space.
 fn draw_map(
     args: &RenderArgs,
+    input: InputProject<'_>,
     grid: [usize; 2],
     progress: &dyn Progress,
 ) -> Result<(Drawing, Vec<String>), CliError> {
-    let (loaded, space, _) = args.inputs.open_space(&args.method, progress)?;
+    let (loaded, space, _) = input.open_space(progress)?;
     let map = match args.sites {
         Some(layout) => {
             WeightMap::new(&layout.sites(space.distances())).map_err(CliError::failed)?
@@ -415,12 +420,7 @@ fn write_frames(
     progress: &dyn Progress,
 ) -> Result<Vec<PathBuf>, CliError> {
     let full_film = full_film(args, &opened.loaded.project, &target)?;
-    let rendered = match &args.frames_range {
-        Some(range) => full_film
-            .frame_range(range.clone())
-            .map_err(CliError::usage)?,
-        None => full_film.clone(),
-    };
+    let rendered = rendered_frames(args, &full_film)?;
     let is_video = matches!(target, ExportTarget::Film(kind, _) if kind.is_video());
     // The view contains the whole film, so that ranges of frames rendered separately fit together.
     let camera = camera(args, opened, full_film.times(), is_video)?;
@@ -436,6 +436,32 @@ fn write_frames(
         ExportError::GifRate(_) | ExportError::Mp4Transparent => CliError::usage(error),
         error => CliError::failed(error),
     })
+}
+
+/// Returns the paths of the files that are going to be written.
+fn output_paths(
+    args: &RenderArgs,
+    project: &Project,
+    target: &ExportTarget,
+) -> Result<Vec<PathBuf>, CliError> {
+    Ok(match target {
+        ExportTarget::Still(_, path) | ExportTarget::Film(_, path) => vec![path.clone()],
+        ExportTarget::Numbered(names) => {
+            let film = rendered_frames(args, &full_film(args, project, target)?)?;
+            let numbers = film.first_number()..film.first_number() + film.times().len();
+            numbers.map(|number| names.path(number)).collect()
+        }
+    })
+}
+
+/// Returns the frames that `--frames-range` selects, or else the whole film.
+fn rendered_frames(args: &RenderArgs, full_film: &FilmSpec) -> Result<FilmSpec, CliError> {
+    match &args.frames_range {
+        Some(range) => full_film
+            .frame_range(range.clone())
+            .map_err(CliError::usage),
+        None => Ok(full_film.clone()),
+    }
 }
 
 /// Returns the film with all its frames, before `--frames-range` selects some of them.

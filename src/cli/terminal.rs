@@ -1,5 +1,5 @@
-//! Progress line on stderr, if stderr is a terminal, and cancellation by Ctrl-C, SIGTERM or a
-//! closed terminal (SIGHUP).
+//! Progress line on stderr, if stderr is a terminal, and signals: Ctrl-C, SIGTERM and a closed
+//! terminal (SIGHUP) cancel the work; SIGXFSZ becomes an error of writing.
 
 use std::fs;
 use std::io::{self, IsTerminal, Write};
@@ -63,6 +63,19 @@ impl Terminal {
             *current_line = line;
         }
     }
+}
+
+/// Blocks the signal that ends a program which exceeds the limit on the size of files (`ulimit -f`).
+/// Writing then fails with an error that names the file.
+///
+/// Must be called before other threads start, because they inherit the blocked signal.
+#[cfg(unix)]
+pub(super) fn block_file_size_signal() {
+    use nix::sys::signal::{SigSet, Signal};
+    // If the signal cannot be blocked, it ends the program as usual.
+    SigSet::from(Signal::SIGXFSZ)
+        .thread_block()
+        .unwrap_or_default();
 }
 
 /// Returns whether the program was started to outlive its terminal, as with `nohup`.

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::io::read::ReadError;
 use crate::io::sanitize::SanitizedLine;
+use std::path::PathBuf;
 
 /// Error returned when a source cannot be imported as a design.
 ///
@@ -26,6 +27,14 @@ pub enum ImportProblem {
     /// The file is missing, cannot be read, is not a regular file, or is too large.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// The font of a text is missing, cannot be read, is not a regular file, or is too large.
+    #[error("font {}: {error}; write %40 for an @ that belongs to the text", SanitizedLine(path.display()))]
+    FontFile {
+        /// Path of the font.
+        path: PathBuf,
+        /// Reason why it was not read.
+        error: ReadError,
+    },
     /// The file has no bytes.
     #[error("the file is empty; export it again")]
     Empty,

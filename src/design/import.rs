@@ -5,14 +5,14 @@ use super::error::{ImportError, ImportProblem};
 use super::form::{Design, ImportedOutlines};
 use super::format::Format;
 use super::options::ImportOptions;
-use super::panic_boundary::catch_panic;
 use super::sniff::sniff;
 use super::source::DesignSource;
 use super::text_encoding::{plain_bytes, xml_text};
 use super::truss::Truss;
 use super::{dxf, lettering, obj, polygons, silhouette, svg};
 use crate::io::read;
-use crate::io::read::check_size;
+use crate::io::read::{ReadError, check_size};
+use crate::work::panic_boundary::catch_panic;
 use std::path::Path;
 
 /// Imports a design from the bytes of a file in any supported format.
@@ -51,7 +51,9 @@ impl DesignSource {
     /// [`ImportError`] names the source, the position in it and a remedy.
     pub fn import(&self, options: &ImportOptions) -> Result<Design, ImportError> {
         let bytes = match self.file() {
-            Some(path) => read::read(path).map_err(|error| self.error(error.into()))?,
+            Some(path) => {
+                read::read(path).map_err(|error| self.error(self.problem(path, error)))?
+            }
             None => Vec::new(),
         };
         self.import_bytes(&bytes, options)
@@ -80,6 +82,17 @@ impl DesignSource {
             }
         };
         contained(read).map_err(|problem| self.error(problem))
+    }
+
+    /// Returns the problem that the file of the source could not be read.
+    fn problem(&self, path: &Path, error: ReadError) -> ImportProblem {
+        match self {
+            Self::File { .. } => error.into(),
+            Self::Text { .. } => ImportProblem::FontFile {
+                path: path.to_owned(),
+                error,
+            },
+        }
     }
 
     fn error(&self, problem: ImportProblem) -> ImportError {

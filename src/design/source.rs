@@ -7,10 +7,15 @@
 //! | `leaf.svg#stalk` | the element of the drawing with that id |
 //! | `glyph:FORM` | the word FORM in the bundled font |
 //! | `glyph:FORM@fonts/serif.ttf` | the word FORM in that font |
+//! | `glyph:me@home`, `glyph:me%40home.org` | text that contains an `@` |
 //!
 //! An existing file named `leaf.svg#stalk` takes precedence over the element. A file named
 //! `glyph:FORM` is written `./glyph:FORM`. The text after `glyph:` is percent-decoded, so
 //! `%40` stands for `@` and `%25` for `%`.
+//!
+//! The words after the first `@` are the path of a font if they contain a dot or a slash, whether
+//! or not such a file exists: a mistyped path is an error, not a text in another font. Otherwise
+//! the `@` belongs to the text.
 
 use crate::io::sanitize::SanitizedName;
 use std::borrow::Cow;
@@ -46,10 +51,6 @@ pub enum DesignSource {
 
 /// Prefix that marks a source as text.
 const GLYPH: &str = "glyph:";
-
-/// File extensions by which the text after the last `@` is recognised as a font file. Web fonts are
-/// included so that they cause an error; otherwise their file name would be drawn as text.
-const FONTS: [&str; 6] = ["ttf", "otf", "ttc", "otc", "woff", "woff2"];
 
 impl DesignSource {
     /// Parses the notation of a source, such as `leaf.svg#stalk` or `glyph:D`. To distinguish a
@@ -162,12 +163,9 @@ impl DesignSource {
 
 /// Parses the notation after `glyph:`: the text and, if given, the font.
 fn parse_text(written: &str) -> DesignSource {
-    let is_font = |path: &str| {
-        let extension = Path::new(path).extension().and_then(|e| e.to_str());
-        extension.is_some_and(|e| FONTS.iter().any(|font| e.eq_ignore_ascii_case(font)))
-    };
-    let (text, font) = match written.rsplit_once('@') {
-        Some((text, font)) if is_font(font) => (text, Some(font.into())),
+    // Splits at the first `@`, because folder names may contain one; in the text it can be escaped.
+    let (text, font) = match written.split_once('@') {
+        Some((text, font)) if font.contains(['.', '/', '\\']) => (text, Some(font.into())),
         _ => (written, None),
     };
     DesignSource::Text {
@@ -230,8 +228,11 @@ mod tests {
             ("glyph:", text("", None)),
             ("glyph:A b", text("A b", None)),
             ("glyph:D@x/y.ttf", text("D", Some("x/y.ttf"))),
-            ("glyph:D@a@b/y.OTF", text("D@a", Some("b/y.OTF"))),
-            ("glyph:a@b.com", text("a@b.com", None)),
+            ("glyph:D@a@b/y.OTF", text("D", Some("a@b/y.OTF"))),
+            ("glyph:D@y.tff", text("D", Some("y.tff"))),
+            ("glyph:D@fonts/y", text("D", Some("fonts/y"))),
+            ("glyph:a@b", text("a@b", None)),
+            ("glyph:a%40b.com", text("a@b.com", None)),
             ("glyph:%40@y.ttf", text("@", Some("y.ttf"))),
             ("glyph:%C3%89%", text("É%", None)),
             ("glyph:%ff%zz", text("%ff%zz", None)),

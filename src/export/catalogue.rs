@@ -26,6 +26,15 @@ use crate::work::progress::{Progress, checkpoint};
 /// Longer side of the image of one blend, in pixels (heuristic).
 const LONGER_SIDE_PX: u32 = 960;
 
+/// Formats in which each blend is written.
+const DRAWINGS: [StillKind; 2] = [StillKind::Svg, StillKind::Dxf];
+
+/// File name of the overview sheet.
+const SHEET: &str = "catalogue.png";
+
+/// File name of the table of measures.
+const TABLE: &str = "catalogue.csv";
+
 /// Order in which saved blends are listed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -124,6 +133,16 @@ impl Catalogue {
         self.entries.is_empty()
     }
 
+    /// Returns the paths of all files that [`Self::write`] may write into a folder.
+    #[must_use]
+    pub fn paths(&self, folder: &Path) -> Vec<PathBuf> {
+        let path = |k: usize, kind| folder.join(drawing_name(k, &self.entries[k].saved, kind));
+        let drawings = (0..self.len()).flat_map(|k| DRAWINGS.map(|kind| path(k, kind)));
+        drawings
+            .chain([SHEET, TABLE].map(|name| folder.join(name)))
+            .collect()
+    }
+
     /// Writes all files into a folder and returns their paths. The folder is created if missing;
     /// existing files with the same names are overwritten.
     ///
@@ -147,9 +166,8 @@ impl Catalogue {
             checkpoint(progress, "writing", k as f64 / self.len() as f64)?;
             let mut drawing = Drawing::new(view.size(), ground);
             self.draw(space, k, style, &view, &mut drawing);
-            let stem = stem(k, &entry.saved);
-            for kind in [StillKind::Svg, StillKind::Dxf] {
-                let path = folder.join(format!("{stem}.{kind}"));
+            for kind in DRAWINGS {
+                let path = folder.join(drawing_name(k, &entry.saved, kind));
                 match encode_still(&drawing, kind, &path) {
                     Ok(bytes) => {
                         write_atomically(&path, &bytes)?;
@@ -162,10 +180,10 @@ impl Catalogue {
                 }
             }
         }
-        let sheet = folder.join("catalogue.png");
+        let sheet = folder.join(SHEET);
         let drawing = self.sheet(space, style, ground);
         write_atomically(&sheet, &encode_still(&drawing, StillKind::Png, &sheet)?)?;
-        let table = folder.join("catalogue.csv");
+        let table = folder.join(TABLE);
         write_atomically(&table, &self.table(space))?;
         written.extend([sheet, table]);
         Ok(written)
@@ -265,6 +283,11 @@ impl Catalogue {
         }
         table
     }
+}
+
+/// Returns the file name of a blend in a format.
+fn drawing_name(k: usize, saved: &SavedBlend, kind: StillKind) -> String {
+    format!("{}.{kind}", stem(k, saved))
 }
 
 /// Returns the file name of a blend, without extension: its number, which makes the name unique,

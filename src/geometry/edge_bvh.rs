@@ -7,6 +7,7 @@
 //! Guaranteed: the first hit of a ray is the same, to the last bit, as in a search over all edges.
 //! The exception is a ray that runs along an edge: rounding decides whether it hits that edge.
 
+use super::ring::ray_crossing;
 use super::{Bounds, DVec2, ray_hit_parameter, ring_edges};
 
 /// Maximum number of edges in a leaf of the hierarchy (heuristic).
@@ -128,6 +129,30 @@ impl EdgeBvh {
             || self.any_within(place, is, *second, middle, to)
     }
 
+    /// Returns the sum of the winding numbers of the polygons around `p`; see
+    /// [`winding`](super::winding).
+    pub(crate) fn winding(&self, p: DVec2) -> i32 {
+        match self.boxes.is_empty() {
+            true => 0,
+            false => self.winding_within(p, 0, 0, self.edges.len()),
+        }
+    }
+
+    /// As [`Self::winding`], for the edges `from..to` in the subtree of `node`.
+    fn winding_within(&self, p: DVec2, node: usize, from: usize, to: usize) -> i32 {
+        let (bounds, second) = &self.boxes[node];
+        // Only edges at the height of `p` and to the right of it count.
+        if p.y < bounds.min.y || p.y > bounds.max.y || p.x > bounds.max.x {
+            return 0;
+        }
+        if to - from <= LEAF_EDGES {
+            let edges = self.edges[from..to].iter();
+            return edges.map(|&edge| ray_crossing(edge, p)).sum();
+        }
+        let middle = from + (to - from) / 2;
+        self.winding_within(p, node + 1, from, middle) + self.winding_within(p, *second, middle, to)
+    }
+
     /// Lowers `nearest` to the distance of the first hit in the subtree of `node`, which holds the
     /// edges `from..to`, if that hit is nearer.
     fn visit(&self, ray: &Ray, node: usize, from: usize, to: usize, nearest: &mut f64) {
@@ -182,7 +207,7 @@ impl Ray {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::segments_cross;
+    use crate::geometry::{segments_cross, winding};
     use proptest::prelude::*;
 
     proptest! {
@@ -215,6 +240,18 @@ mod tests {
             let slow = ring_edges(&points).any(|(a, b)| crosses([a, b]));
             let place = Bounds::of(segment).expect("two points");
             prop_assert_eq!(slow, EdgeBvh::of(&points).any_edge_near(&place, &crosses));
+        }
+
+        #[test]
+        fn the_winding_number_is_that_of_all_edges(
+            points in prop::collection::vec((-1.0f64..1.0, -1.0f64..1.0), 1..80),
+            p in (-1.5f64..1.5, -1.5f64..1.5),
+        ) {
+            let points: Vec<DVec2> = points.into_iter().map(DVec2::from).collect();
+            let p = DVec2::from(p);
+            prop_assert_eq!(EdgeBvh::of(&points).winding(p), winding(&points, p));
+            let corner = points[0];
+            prop_assert_eq!(EdgeBvh::of(&points).winding(corner), winding(&points, corner));
         }
 
         #[test]

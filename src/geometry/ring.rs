@@ -143,16 +143,18 @@ pub fn perimeter(points: &[DVec2]) -> f64 {
 /// boundary, the answer may be that of either side.
 #[must_use]
 pub fn winding(points: &[DVec2], p: DVec2) -> i32 {
-    let crossing = |(a, b): (DVec2, DVec2)| {
-        let side = (b - a).perp_dot(p - a);
-        // An end at the height of `p` counts as below it. A horizontal ray through a corner
-        // therefore crosses neither of the corner's edges, one of them, or both in opposite
-        // directions.
-        match (a.y <= p.y, b.y <= p.y) {
-            (true, false) if side > 0.0 => 1,
-            (false, true) if side < 0.0 => -1,
-            _ => 0,
-        }
-    };
-    ring_edges(points).map(crossing).sum()
+    ring_edges(points).map(|edge| ray_crossing(edge, p)).sum()
+}
+
+/// Returns the contribution of an edge to the winding number around `p`: 1 if the edge crosses the
+/// horizontal ray to the right of `p` upwards, -1 if downwards, otherwise 0.
+pub(crate) fn ray_crossing((a, b): (DVec2, DVec2), p: DVec2) -> i32 {
+    let side = (b - a).perp_dot(p - a);
+    // An end at the height of `p` counts as below it. A ray through a corner therefore crosses
+    // neither of the corner's edges, one of them, or both in opposite directions.
+    match (a.y <= p.y, b.y <= p.y) {
+        (true, false) if side > 0.0 => 1,
+        (false, true) if side < 0.0 => -1,
+        _ => 0,
+    }
 }

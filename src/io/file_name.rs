@@ -1,9 +1,13 @@
 //! File names that are valid on every common file system.
 
+/// Maximum length of a name in bytes (limit of file systems: 255 bytes, of which 15 are left for a
+/// number and an extension).
+const MAX_BYTES: usize = 240;
+
 /// Returns `name` with every character except letters, digits and `-_. ,()+&` replaced by `-`, and
 /// without dots and spaces at both ends.
 ///
-/// The result has at most 80 characters. An empty result becomes `untitled`.
+/// The result has at most 80 characters and [`MAX_BYTES`]. An empty result becomes `untitled`.
 #[must_use]
 pub fn safe_file_name(name: &str) -> String {
     let replace = |c: char| {
@@ -13,9 +17,8 @@ pub fn safe_file_name(name: &str) -> String {
             '-'
         }
     };
-    // File systems allow names of 255 bytes. 80 characters take at most 240 bytes (for all but the
-    // rarest scripts), which leaves room for a number and an extension.
-    let replaced: String = name.chars().take(80).map(replace).collect();
+    let mut replaced: String = name.chars().take(80).map(replace).collect();
+    replaced.truncate(replaced.floor_char_boundary(MAX_BYTES));
     // A leading dot hides a file on Unix. Windows drops trailing dots and spaces.
     let trimmed = replaced.trim_matches(|c| c == '.' || c == ' ');
     if trimmed.is_empty() {
@@ -38,5 +41,14 @@ mod tests {
         );
         assert_eq!(safe_file_name(".."), "untitled");
         assert_eq!(safe_file_name("  Brücke 2 "), "Brücke 2");
+    }
+
+    #[test]
+    fn names_of_four_byte_letters_fit_into_a_file_name() {
+        let name = safe_file_name(&"\u{10400}".repeat(100));
+        assert_eq!(name, "\u{10400}".repeat(60));
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join(format!("{name}-2.svg"));
+        std::fs::write(path, "").expect("written");
     }
 }

@@ -32,6 +32,9 @@ pub enum ProjectError {
     /// The operating system refused to write the file.
     #[error("the project cannot be written: {0}")]
     Unwritable(String),
+    /// A file that must not be replaced has the name of the new file.
+    #[error("{}", SanitizedLine(format_args!("`{}` already exists: choose another name", .0.display())))]
+    AlreadyExists(PathBuf),
     /// The file is not UTF-8 text.
     #[error("this is not a text file; a .morph project is TOML in UTF-8")]
     NotText,

@@ -15,6 +15,7 @@ use crate::transition::{PartTime, TransitionOptions};
 use serde::de::value::Error as NoValue;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 use serde::forward_to_deserialize_any;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
@@ -113,9 +114,26 @@ impl Project {
     /// [`ProjectError`] names the file; the old file is untouched.
     pub fn save_atomically(&self, path: &Path) -> Result<(), ProjectError> {
         let text = self.to_toml()?;
-        let written = atomic_file::write(path, text.as_bytes());
-        written.map_err(|error| ProjectError::Unwritable(write_error_message(&error)).in_file(path))
+        atomic_file::write(path, text.as_bytes()).map_err(|error| unwritable(path, &error))
     }
+
+    /// Like [`Self::save_atomically`], but never replaces a file, even one that another process
+    /// writes at the same moment.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the file; [`ProjectError::AlreadyExists`] if it exists.
+    pub fn save_new(&self, path: &Path) -> Result<(), ProjectError> {
+        let text = self.to_toml()?;
+        atomic_file::write_new(path, text.as_bytes()).map_err(|error| match error.kind() {
+            ErrorKind::AlreadyExists => ProjectError::AlreadyExists(path.to_owned()),
+            _ => unwritable(path, &error),
+        })
+    }
+}
+
+/// Returns the error for a project file that could not be written.
+fn unwritable(path: &Path, error: &io::Error) -> ProjectError {
+    ProjectError::Unwritable(write_error_message(error)).in_file(path)
 }
 
 /// Deserialises the text of a project file, without checking values.

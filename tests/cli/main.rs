@@ -7,6 +7,7 @@ mod cli_fixture;
 mod hostile_names;
 mod output_files;
 mod pair_tables;
+mod protection;
 mod videos;
 
 use std::fs;
@@ -263,6 +264,22 @@ fn glyphs_and_svg_elements_are_accepted_as_designs() {
     assert!(table.contains("1 edge crossing was resolved"), "{table}");
     cli.fails(2, "check glyph:D", "a single design");
     cli.fails(1, "check glyph:D glyph:\u{2603}", "U+2603");
+}
+
+#[test]
+fn a_mistyped_font_is_an_error_and_an_at_sign_in_text_is_possible() {
+    let cli = CliFixture::new();
+    let render = |text: &str| {
+        format!("render {text} glyph:D --method field --cells 40 --at 0 --size 8x8 --out x.png")
+    };
+    for font in ["missing.ttf", "missing.tff", "fonts/missing", "home.org"] {
+        let line = render(&format!("glyph:A@{font}"));
+        cli.fails(1, &line, &format!("font {font}: the file does not exist"));
+        cli.fails(1, &line, "write %40 for an @");
+    }
+    for text in ["glyph:me@home", "glyph:me%40home.org"] {
+        cli.succeeds(&render(text));
+    }
 }
 
 #[test]

@@ -159,8 +159,8 @@ fn wrong_use_of_tables_exits_with_code_two() {
     cli.fails(2, "check a.obj b.obj --out x.csv", "--pairs");
     cli.fails(2, "check a.obj b.obj --both", "--pairs");
     cli.fails(2, "check a.obj b.obj --pairs t.csv --out x.csv", "--pairs");
-    cli.fails(2, "check --pairs t.csv --out t.csv", "the table itself");
-    cli.fails(2, "check --pairs t.csv --out ./t.csv", "the table itself");
+    cli.fails(2, "check --pairs t.csv --out t.csv", "replace the input");
+    cli.fails(2, "check --pairs t.csv --out ./t.csv", "replace the input");
     cli.fails(
         2,
         "check --pairs t.csv --out x.csv --sheet x.gif",
@@ -168,7 +168,7 @@ fn wrong_use_of_tables_exits_with_code_two() {
     );
     cli.fails(
         2,
-        "check --pairs t.csv --out x.svg --sheet x.svg",
+        "check --pairs t.csv --out x.svg --sheet ./x.svg",
         "two names",
     );
     cli.fails(1, "check --pairs t.csv --out none/x.csv", "none/x.csv");

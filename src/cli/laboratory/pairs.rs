@@ -6,9 +6,7 @@
 //! are saved before that, and remain if the program is interrupted. Unless `--one-by-one` is given,
 //! times are measured while other pairs use the other cores.
 
-use std::any::Any;
 use std::io;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -22,6 +20,7 @@ use super::summary::PairSummary;
 use super::table;
 use super::table::{PairRowError, PairTable, PairTableRow};
 use crate::cli::error::CliError;
+use crate::cli::input_files::InputFiles;
 use crate::cli::inputs::{InputArgs, OpenedPair};
 use crate::design::DesignSource;
 use crate::export::{
@@ -29,8 +28,10 @@ use crate::export::{
     write_still,
 };
 use crate::io::atomic_file::write_error_message;
+use crate::io::file_id::FileId;
 use crate::io::sanitize::SanitizedLine;
 use crate::transition::TransitionStyle;
+use crate::work::panic_boundary::catch_panic;
 use crate::work::progress::Progress;
 
 /// Number of frames in a strip of the contact sheet (heuristic).
@@ -46,7 +47,8 @@ pub(in crate::cli) struct PairBatchArgs {
     pairs: PathBuf,
 
     /// With --pairs: file for the report, with a row for each pair; until all pairs are measured,
-    /// finished rows are saved in FILE.partial.csv
+    /// finished rows are saved in FILE.partial.csv; that of an interrupted run stays until a run
+    /// with the same FILE is finished
     #[arg(long, value_name = "FILE.csv", required = false, requires = "pairs")]
     out: PathBuf,
 
@@ -108,8 +110,16 @@ impl PairBatchArgs {
             None => None,
         };
         self.check_output_paths()?;
+        let outputs = || std::iter::once(&self.out).chain(&self.sheet);
+        let inputs = InputFiles::default().with_file(&self.pairs);
+        // The table is compared first, because it may be no table any more if it was an output.
+        inputs.check_outputs(outputs())?;
         let table = table::read(&self.pairs)
             .map_err(|error| CliError::Failed(format!("`{}`: {error}", self.pairs.display())))?;
+        let designs = table.rows.iter().filter_map(|row| row.pair.as_ref().ok());
+        let designs = designs.flatten().map(PathBuf::as_path);
+        let inputs = inputs.with_designs(Path::new(""), designs);
+        inputs.check_outputs(outputs())?;
         let jobs = self.jobs(&table);
         let partial = PartialTable::begin(&self.out, &rows::header(&table));
         let partial = partial.map_err(|source| {
@@ -148,8 +158,12 @@ impl PairBatchArgs {
             let path = partial.path.display();
             CliError::Failed(format!("{error}; the rows are saved in `{path}`"))
         })?;
-        partial.remove().map_err(CliError::failed)?;
-        let mut written = vec![self.out.display().to_string()];
+        let removed = partial.finish(&self.out).map_err(CliError::failed)?;
+        let remark = removed.iter().map(|path| {
+            let path = path.display();
+            format!(" (and removed `{path}`, which an interrupted run had left)")
+        });
+        let mut written = vec![self.out.display().to_string() + &remark.collect::<String>()];
         if let Some((kind, path)) = sheet {
             let remark = write_sheet(results, kind, path)?;
             written.push(path.display().to_string() + &remark);
@@ -157,21 +171,10 @@ impl PairBatchArgs {
         Ok(written)
     }
 
-    /// Checks before the work that the output files can be written and do not replace the input
-    /// table or each other.
+    /// Checks before the work that the output files can be written and are not the same file.
     fn check_output_paths(&self) -> Result<(), CliError> {
-        let is_same_file = |a: &Path, b: &Path| match (a.canonicalize(), b.canonicalize()) {
-            (Ok(a), Ok(b)) => a == b,
-            // A file that does not exist yet has no canonical path.
-            _ => a == b,
-        };
         for path in std::iter::once(&self.out).chain(&self.sheet) {
             let shown = path.display();
-            if is_same_file(path, &self.pairs) {
-                return Err(CliError::Usage(format!(
-                    "`{shown}` is the table itself; choose another name for the output"
-                )));
-            }
             let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
             if path.exists() && !path.is_file() {
                 return Err(CliError::Failed(format!(
@@ -189,7 +192,7 @@ impl PairBatchArgs {
                 )));
             }
         }
-        if (self.sheet.as_ref()).is_some_and(|sheet| is_same_file(sheet, &self.out)) {
+        if (self.sheet.as_ref()).is_some_and(|sheet| is_same_output(sheet, &self.out)) {
             let message = "--out and --sheet are the same file; choose two names";
             return Err(CliError::Usage(message.to_owned()));
         }
@@ -255,8 +258,8 @@ impl PairBatchArgs {
             Ok((report.without_samples(), strip))
         };
         // A panic in one pair must not stop the work on the others.
-        let outcome = catch_unwind(AssertUnwindSafe(measure));
-        let (report, strip) = match outcome.unwrap_or_else(|panic| Err(panic_error(&*panic))) {
+        let outcome = catch_panic(measure).unwrap_or_else(|message| Err(panic_error(&message)));
+        let (report, strip) = match outcome {
             Ok((report, strip)) => (Ok(report), strip),
             Err(error) => {
                 // A cell of the table holds one line.
@@ -267,6 +270,19 @@ impl PairBatchArgs {
             }
         };
         PairResult { job, report, strip }
+    }
+}
+
+/// Returns whether two outputs are the same file, which may not exist yet.
+fn is_same_output(a: &Path, b: &Path) -> bool {
+    let parts = |path: &Path| {
+        let folder = path.parent().unwrap_or(path);
+        let name = path.file_name().map(ToOwned::to_owned);
+        (FileId::of(&Path::new(".").join(folder)), name)
+    };
+    match (FileId::of(a), FileId::of(b)) {
+        (None, None) => parts(a) == parts(b),
+        (a, b) => a == b,
     }
 }
 
@@ -287,12 +303,9 @@ fn cancelled_message(partial: PartialTable, total: usize) -> Result<String, CliE
 }
 
 /// Returns the error for a panic while a pair was measured.
-fn panic_error(panic: &(dyn Any + Send)) -> CliError {
-    let text = panic.downcast_ref::<&str>().copied();
-    let message = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+fn panic_error(message: &str) -> CliError {
     CliError::Failed(format!(
-        "internal error ({}); please report it with both designs",
-        message.unwrap_or("no message")
+        "internal error ({message}); please report it with both designs"
     ))
 }
 

@@ -74,7 +74,8 @@ impl MeasuringArgs {
         let clock = StageClock::new(&building);
         let measuring = ProgressSpan::new(&whole, BUILT_FRACTION, 1.0);
         let mut measured = Vec::new();
-        inputs.open_each(&self.method, &clock, |opened| {
+        let input = inputs.read(&self.method, &clock)?;
+        input.open_each(&clock, |opened| {
             let samples = self.samples as usize;
             let mut report = PairReport::of(&opened, clock.stages(), samples, &measuring)?;
             if self.prove {

@@ -3,13 +3,15 @@
 //! As soon as a pair is measured, its row is written to `report.partial.csv` next to `report.csv`,
 //! so finished work is not lost if the program is interrupted. The file contains complete rows
 //! only, in the order in which they were finished. An existing file of this name is not replaced;
-//! the next one gets a number.
+//! the next one gets a number. Once a run has written the report, it removes its own file and those
+//! of interrupted runs, but not those of running ones.
 
 use std::fs::{self, File};
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use crate::io::atomic_file::{remove_unowned, try_lock};
 use crate::io::escape::csv_line;
 
 use super::columns;
@@ -19,10 +21,14 @@ use super::table::{PairTable, PairTableRow};
 /// Returns the header of the report as a line of CSV: the headings of the input table, `direction`,
 /// `status`, and the headings of the measures.
 pub(super) fn header(table: &PairTable) -> Vec<u8> {
+    csv_line(table.header.iter().cloned().chain(result_headings()))
+}
+
+/// Returns the headings that follow those of the input table.
+fn result_headings() -> impl Iterator<Item = String> {
     let result = [columns::DIRECTION, columns::STATUS].map(str::to_owned);
     let measures = columns::ALL.iter().map(columns::ReportColumn::heading);
-    let headings = table.header.iter().cloned().chain(result).chain(measures);
-    csv_line(headings)
+    result.into_iter().chain(measures)
 }
 
 /// Returns the row of a pair as a line of CSV: the cells of the input table, the direction, the
@@ -67,6 +73,8 @@ impl PartialTable {
             match File::create_new(&path) {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
+                // The lock shows other runs that the file is in use.
+                Ok(file) if !try_lock(&file)? => {}
                 Ok(mut file) => {
                     let written = file.write_all(header);
                     let saved = Mutex::new(SavedRows { file, count: 0 });
@@ -109,12 +117,55 @@ impl PartialTable {
         saved.count
     }
 
-    /// Deletes the file, because the report has been written or no row was saved.
+    /// Deletes the file, because `report` has been written, and the files that interrupted runs
+    /// left next to it. Returns the paths of the latter.
+    ///
+    /// # Errors
+    /// The own file cannot be deleted.
+    pub fn finish(self, report: &Path) -> io::Result<Vec<PathBuf>> {
+        let mut left = interrupted_tables(report);
+        left.retain(|path| *path != self.path);
+        self.remove()?;
+        left.retain(|path| remove_unowned(path));
+        Ok(left)
+    }
+
+    /// Deletes the file, because no row was saved.
     ///
     /// # Errors
     /// The file cannot be deleted.
     pub fn remove(self) -> io::Result<()> {
         fs::remove_file(self.path)
+    }
+}
+
+/// Returns the paths of the partial tables of a report. Files with the name of a partial table but
+/// with other contents are left out.
+fn interrupted_tables(report: &Path) -> Vec<PathBuf> {
+    let paths = (1u32..).map(|number| partial_path(report, number));
+    let existing = paths.take_while(|path| path.symlink_metadata().is_ok());
+    existing.filter(|path| is_partial_table(path)).collect()
+}
+
+/// Returns whether a file has the headings of a report, or is empty because the program was killed
+/// before it wrote them.
+fn is_partial_table(path: &Path) -> bool {
+    let is_file = |data: fs::Metadata| data.is_file();
+    if !path.symlink_metadata().is_ok_and(is_file) {
+        return false;
+    }
+    let Ok(file) = File::open(path) else {
+        return false;
+    };
+    let headings = csv_line(result_headings());
+    let mut lines = BufReader::new(file).split(b'\n').map_while(Result::ok);
+    // A heading of the input table may contain line breaks, so the first line may not be the last
+    // of the headings.
+    match lines.next() {
+        None => true,
+        Some(first) => std::iter::once(first)
+            .chain(lines)
+            .any(|line| line.ends_with(headings.trim_ascii_end())),
     }
 }
 
@@ -149,5 +200,26 @@ mod tests {
             assert_eq!(fs::read(&partial.path).expect("read"), b"x\n1\n");
         }
         assert_eq!(partial_path("r".as_ref(), 1), Path::new("r.partial"));
+    }
+
+    #[test]
+    fn a_finished_run_removes_the_tables_of_interrupted_ones_only() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let report = folder.path().join("r.csv");
+        let table = PairTable {
+            header: vec!["note\nof the pair".to_owned()],
+            rows: Vec::new(),
+        };
+        let begin = || PartialTable::begin(&report, &header(&table)).expect("created");
+        fs::write(partial_path(&report, 1), "notes\nof mine\n").expect("written");
+        let (interrupted, running, finished) = (begin(), begin(), begin());
+        fs::write(partial_path(&report, 5), "").expect("written");
+        let [left, kept] = [&interrupted, &running].map(|partial| partial.path.clone());
+        // Releases the lock, as the system does when a process ends.
+        drop(interrupted);
+        let removed = finished.finish(&report).expect("removed");
+        assert_eq!(removed, [left, partial_path(&report, 5)]);
+        assert!(kept.exists() && partial_path(&report, 1).exists());
+        assert_eq!(fs::read_dir(&folder).expect("listed").count(), 2);
     }
 }

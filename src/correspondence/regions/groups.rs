@@ -182,12 +182,13 @@ fn user_groups(
 ) -> Result<Vec<PartGroup>, RegionMatchError> {
     let mut groups: Vec<PartGroup> = Vec::new();
     for pair in fixed_pairs(designs, settings, pins) {
-        let touching = groups.iter_mut().find(|g| {
-            Side::BOTH
-                .iter()
-                .any(|&side| g.parts[side].contains(&pair[side]))
+        // A group with one of the two parts, and this part, which then is in several pairs.
+        let touching = groups.iter_mut().find_map(|group| {
+            let is_in_group = |&side: &Side| group.parts[side].contains(&pair[side]);
+            let side = Side::BOTH.into_iter().find(is_in_group)?;
+            Some((group, pair[side]))
         });
-        let Some(group) = touching else {
+        let Some((group, shared)) = touching else {
             groups.push(PartGroup {
                 parts: pair.map(|part| vec![part]),
             });
@@ -201,8 +202,7 @@ fn user_groups(
         let has_several_on_both = group.parts.iter().all(|parts| parts.len() > 1);
         let needs_split = group.parts.iter().any(|parts| parts.len() > 1);
         if has_several_on_both || (needs_split && settings.parts == PartRule::Transient) {
-            let side = usize::from(group.parts[1].len() == 1 || has_several_on_both);
-            return Err(PairError::Twice(pair[1 - side]).into());
+            return Err(PairError::Twice(shared).into());
         }
     }
     Ok(groups)

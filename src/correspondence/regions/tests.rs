@@ -1,7 +1,7 @@
 //! Tests of the match of whole designs: parts, holes, cuts, pins, links and notes.
 
 use super::*;
-use crate::correspondence::{HoleRule, PartRule, PointPair, RingCut, UnmatchedPart};
+use crate::correspondence::{HoleRule, PairError, PartRule, PointPair, RingCut, UnmatchedPart};
 use crate::geometry::{Bounds, DVec2, FillRule, Ring, Side};
 use crate::work::progress::Silent;
 
@@ -216,6 +216,28 @@ fn pins_and_links_pair_their_parts() {
         ..MatchSettings::default()
     };
     assert_eq!(parts(&run(&two, &two, &pinned)), parts(&crossed));
+}
+
+#[test]
+fn the_error_for_contradictory_links_names_the_part_that_they_share() {
+    let three = design(&[0.0, 4.0, 8.0].map(|x| block(x, 0.0, 2.0, 1.0)));
+    let centre = |part: f64| DVec2::new(4.0 * part + 1.0, 0.5);
+    let error = |links: [[f64; 2]; 2]| {
+        let settings = MatchSettings {
+            parts: PartRule::Transient,
+            links: (links.into_iter())
+                .map(|[source, target]| PointPair {
+                    source: centre(source),
+                    target: centre(target),
+                })
+                .collect(),
+            ..MatchSettings::default()
+        };
+        match_regions(&three, &three, &settings, &Silent).err()
+    };
+    let twice = Some(RegionMatchError::Pairs(PairError::Twice(2)));
+    assert_eq!(error([[0.0, 2.0], [1.0, 2.0]]), twice);
+    assert_eq!(error([[2.0, 0.0], [2.0, 1.0]]), twice);
 }
 
 #[test]

@@ -11,6 +11,9 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
+#[cfg(unix)]
+use crate::io::file_id::FileId;
+
 /// Text in a temporary name between the final name and the process id.
 const MARKER: &str = ".morphospace-";
 
@@ -42,9 +45,9 @@ pub(super) fn create_temporary(path: &Path, folder: &Path) -> io::Result<(File, 
     Err(io::ErrorKind::AlreadyExists.into())
 }
 
-/// Locks a new file. Returns `false` if another process is removing the file or has removed it.
+/// Locks a new file as long as it is open. Returns `false` if another process is removing the file or has removed it.
 #[cfg(unix)]
-fn try_lock(file: &File) -> io::Result<bool> {
+pub(crate) fn try_lock(file: &File) -> io::Result<bool> {
     use std::fs::TryLockError;
     use std::os::unix::fs::MetadataExt;
     match file.try_lock() {
@@ -57,7 +60,7 @@ fn try_lock(file: &File) -> io::Result<bool> {
 }
 
 #[cfg(not(unix))]
-fn try_lock(_: &File) -> io::Result<bool> {
+pub(crate) fn try_lock(_: &File) -> io::Result<bool> {
     Ok(true)
 }
 
@@ -69,22 +72,33 @@ pub(crate) fn remove_leftovers(folder: &Path) {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return;
     };
-    for entry in entries
-        .flatten()
-        .filter(|e| is_temporary_name(&e.file_name()))
-    {
-        let path = entry.path();
-        // Opening a pipe would block until its other end is opened.
-        if entry.file_type().is_ok_and(|kind| kind.is_file())
-            && let Ok(file) = open_for_lock(&path)
-            && file.try_lock().is_ok()
-            && is_at(&file, &path)
-        {
-            // The file is removed while it is locked, so that no process can start using it in
-            // between.
-            std::fs::remove_file(path).unwrap_or_default();
+    for entry in entries.flatten() {
+        if is_temporary_name(&entry.file_name()) {
+            remove_unowned(&entry.path());
         }
     }
+}
+
+/// Removes a regular file unless a running process has locked it with [`try_lock`]. Returns whether
+/// the file was removed.
+#[cfg(unix)]
+pub(crate) fn remove_unowned(path: &Path) -> bool {
+    // Opening a pipe would block until its other end is opened.
+    if std::fs::symlink_metadata(path).is_ok_and(|data| data.is_file())
+        && let Ok(file) = open_for_lock(path)
+        && file.try_lock().is_ok()
+        && is_at(&file, path)
+    {
+        // The file is removed while it is locked, so that no process can start using it in between.
+        return std::fs::remove_file(path).is_ok();
+    }
+    false
+}
+
+/// Removes a file; without file locks, also one that a running process uses.
+#[cfg(all(not(unix), feature = "cli"))]
+pub(crate) fn remove_unowned(path: &Path) -> bool {
+    std::fs::remove_file(path).is_ok()
 }
 
 /// Opens a file so that it can be locked; network file systems require write access for that.
@@ -101,10 +115,8 @@ fn open_for_lock(path: &Path) -> io::Result<File> {
 /// path.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let at_path = std::fs::metadata(path).map(|data| (data.dev(), data.ino()));
-    let locked = file.metadata().map(|data| (data.dev(), data.ino()));
-    at_path.ok().zip(locked.ok()).is_some_and(|(a, b)| a == b)
+    let locked = file.metadata().ok();
+    locked.is_some_and(|locked| FileId::of(path) == Some(FileId::of_metadata(&locked)))
 }
 
 #[cfg(not(unix))]

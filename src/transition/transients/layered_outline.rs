@@ -88,6 +88,12 @@ impl LayeredEdges {
         let layer = self.0.get(&outline.layer);
         layer.is_some_and(|layer| layer.iter().any(|edges| outline.crosses_edges(edges)))
     }
+
+    /// Returns the sum of the winding numbers of the outlines on a layer about a point.
+    pub(in crate::transition) fn winding(&self, layer: usize, p: DVec2) -> i32 {
+        let layer = self.0.get(&layer);
+        layer.map_or(0, |layer| layer.iter().map(|edges| edges.winding(p)).sum())
+    }
 }
 
 #[cfg(test)]

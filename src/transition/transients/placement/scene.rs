@@ -111,9 +111,8 @@ pub(super) struct TransientScene<'a> {
     steps: &'a SampleTimes,
     /// Outlines of the matched parts at each sample time.
     outlines: Vec<Vec<LayeredOutline>>,
-    /// Holes that exist in only one design and are visible, at each sample time.
-    holes: Vec<Vec<LayeredOutline>>,
-    /// Edges of `outlines`, `holes` and the parts that are already placed, at each sample time.
+    /// Edges of `outlines`, of the visible holes that exist in only one design, and of the parts
+    /// that are already placed, at each sample time.
     edges: Vec<LayeredEdges>,
     /// Parts that are already placed.
     born: Vec<SceneTransient<'a>>,
@@ -135,20 +134,20 @@ impl<'a> TransientScene<'a> {
         (levels, steps): (&PieceLayers, &'a SampleTimes),
     ) -> Self {
         let walks = SharedPartLoops::of(film);
-        let at = |placer: &mut Placer, &t: &f64| -> (Vec<LayeredOutline>, Vec<LayeredOutline>) {
+        let at = |placer: &mut Placer, &t: &f64| -> (Vec<LayeredOutline>, LayeredEdges) {
             placer.place(t);
             let places = &placer.placement().in_frame;
-            let there = holes.iter().filter_map(|(piece, hole)| {
-                let ring = hole.ring_at(places, t)?;
-                Some(LayeredOutline::of(ring, levels.of_piece(*piece)))
-            });
-            (walks.outlines(places, levels), there.collect())
+            let outlines = walks.outlines(places, levels);
+            let mut edges = LayeredEdges::of(&outlines);
+            for (piece, hole) in holes {
+                if let Some(ring) = hole.ring_at(places, t) {
+                    edges.add(&LayeredOutline::of(ring, levels.of_piece(*piece)));
+                }
+            }
+            (outlines, edges)
         };
         let all = steps.times().par_iter().map_init(|| film.placer(), at);
-        let (outlines, holes): (Vec<Vec<LayeredOutline>>, Vec<Vec<_>>) = all.unzip();
-        let drawn = outlines.iter().zip(&holes);
-        let edges = drawn.map(|(parts, holes)| LayeredEdges::of(parts.iter().chain(holes)));
-        let edges = edges.collect();
+        let (outlines, edges) = all.unzip();
         let bounds = film.mesh().bounds();
         let unplaced = |speck: &TransientPart| {
             let outlines = speck.at(speck.ends[speck.side], 1.0);
@@ -163,7 +162,6 @@ impl<'a> TransientScene<'a> {
             born: Vec::new(),
             unplaced: specks.iter().rev().map(unplaced).collect(),
             outlines,
-            holes,
             edges,
             grid: grid(bounds, specks.len()),
             bounds,
@@ -415,16 +413,16 @@ impl<'a> TransientScene<'a> {
         let Some(outer) = rings.first() else {
             return true;
         };
-        let is_beside = |other: &&LayeredOutline| other.layer == outer.layer;
         let place = outer.points[0];
-        let others = self
-            .there(step, side)
-            .chain(&self.holes[step])
-            .filter(is_beside);
-        let is_within = others.map(|o| o.winding(place)).sum::<i32>() != 0;
+        let unplaced = self.unplaced_near(step, side);
+        let around_it: i32 = std::iter::once(&self.edges[step])
+            .chain(unplaced.map(|part| &part.edges))
+            .map(|edges| edges.winding(outer.layer, place))
+            .sum();
         let around = |p: DVec2| rings.iter().map(|o| o.winding(p)).sum::<i32>();
-        let mut others = self.there(step, side).filter(is_beside);
-        !is_within && !others.any(|other| around(other.points[0]) != 0)
+        let mut others = self.there(step, side);
+        around_it == 0
+            && !others.any(|other| other.layer == outer.layer && around(other.points[0]) != 0)
     }
 
     /// Returns the part's own position as a seed shape, to which the innermost outline around the

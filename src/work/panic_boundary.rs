@@ -1,5 +1,5 @@
-//! Turns panics while a file is read into errors. The decoders of pictures, fonts and drawings come
-//! from many libraries, and a damaged file must not end the program.
+//! Turns panics into errors. The decoders of pictures, fonts and drawings come from many libraries,
+//! and neither a damaged file nor a pair of designs in a table may end the program.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -11,9 +11,11 @@ thread_local! {
     static IS_CAUGHT: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `read` and returns its result, or the message of its panic. The first call replaces the
-/// panic hook of the process by one that calls the previous hook, except for panics in `read`.
-pub(super) fn catch_panic<T>(read: impl FnOnce() -> T) -> Result<T, String> {
+/// Runs `work` and returns its result, or the message of its panic. The first call replaces the
+/// panic hook of the process by one that calls the previous hook, except for panics in `work`.
+///
+/// The caller must not use data that `work` changes in place after a panic.
+pub(crate) fn catch_panic<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let print = take_hook();
@@ -24,8 +26,7 @@ pub(super) fn catch_panic<T>(read: impl FnOnce() -> T) -> Result<T, String> {
         }));
     });
     let was_caught = IS_CAUGHT.replace(true);
-    // The reader owns its data, so a panic leaves nothing half changed.
-    let result = catch_unwind(AssertUnwindSafe(read));
+    let result = catch_unwind(AssertUnwindSafe(work));
     IS_CAUGHT.set(was_caught);
     result.map_err(|panic| message(&*panic))
 }
