@@ -5,5 +5,6 @@ pub(crate) mod atomic_file;
 pub(crate) mod escape;
 #[cfg(feature = "cli")]
 pub(crate) mod file_name;
+pub(crate) mod path_text;
 pub(crate) mod read;
 pub(crate) mod sanitize;

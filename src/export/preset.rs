@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::layout::{Aspect, PictureLayout};
 use super::target::FilmKind;
 use crate::io::atomic_file::AtomicFile;
+use crate::io::path_text;
+use crate::io::read::{self, ReadError};
 
 /// Export settings for films: everything except duration and easing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,7 +33,11 @@ pub struct FilmPreset {
     pub file: Option<FilmKind>,
     /// Folder that the window offers first for the exported film; `None` leaves it as it is. The
     /// command line names the output file itself.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        with = "path_text::option"
+    )]
     pub folder: Option<PathBuf>,
 }
 
@@ -82,10 +88,10 @@ impl FilmPresets {
     /// # Errors
     /// If the file cannot be read or parsed.
     pub fn read(path: &Path) -> io::Result<Self> {
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse(&text).map_err(io::Error::other),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
-            Err(error) => Err(error),
+        match read::read(path) {
+            Ok(bytes) => toml::from_slice(&bytes).map_err(io::Error::other),
+            Err(ReadError::Missing) => Ok(Self::default()),
+            Err(error) => Err(io::Error::other(error)),
         }
     }
 

@@ -12,6 +12,7 @@ use bevy::prelude::Resource;
 use image::{ImageFormat, RgbaImage};
 
 use crate::io::atomic_file::AtomicFile;
+use crate::io::read;
 
 /// Cached strips by project name. Failures are harmless: a missing strip is drawn again.
 #[derive(Resource, Clone, Debug, Default)]
@@ -69,7 +70,8 @@ impl GalleryStripCache {
             .filter_map(|folder| fs::read_dir(folder.version_folder()).ok());
         let strips = files.flatten().flatten().filter_map(|file| {
             let path = file.path();
-            let strip = image::open(&path).ok()?.into_rgba8();
+            let strip = image::load_from_memory(&read::read(&path).ok()?).ok()?;
+            let strip = strip.into_rgba8();
             let name = path.file_stem()?.to_str()?.to_owned();
             (strip.dimensions() == size).then_some((name, strip))
         });

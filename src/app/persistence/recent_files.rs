@@ -12,6 +12,7 @@ use crate::app::output_files::CaptureFolder;
 use crate::app::session::state::Session;
 use crate::design::DesignSource;
 use crate::io::atomic_file::AtomicFile;
+use crate::io::{path_text, read};
 
 /// Maximum number of entries (heuristic: as many as fit above the gallery).
 const MAX_ENTRIES: usize = 5;
@@ -21,6 +22,7 @@ const MAX_ENTRIES: usize = 5;
 pub struct RecentEntry {
     /// Path of one project file, or sources of designs opened together; a source may also be an
     /// element of a file, or text.
+    #[serde(with = "path_text::list")]
     pub files: Vec<PathBuf>,
 }
 
@@ -57,7 +59,11 @@ impl RecentEntry {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecentFiles {
     /// Folder of the last export.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        with = "path_text::option"
+    )]
     export_folder: Option<PathBuf>,
     #[serde(default)]
     opened: Vec<RecentEntry>,
@@ -73,8 +79,8 @@ impl RecentFiles {
 
     /// Reads the list; empty if the file is missing or invalid.
     fn read(path: &Path) -> Self {
-        let text = std::fs::read_to_string(path).unwrap_or_default();
-        toml::from_str(&text).unwrap_or_default()
+        let bytes = read::read(path).unwrap_or_default();
+        toml::from_slice(&bytes).unwrap_or_default()
     }
 
     /// Writes the list atomically.

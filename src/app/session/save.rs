@@ -8,6 +8,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::app::output_files::{create_new, keep_if_written};
 use crate::design::DesignSource;
+use crate::io::read;
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 
 /// Reason why a project was not saved.
@@ -78,7 +79,7 @@ fn write_bundled_design(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveEr
     };
     let bytes = gallery::bytes(bundled).ok_or_else(|| failed(io::ErrorKind::NotFound.into()))?;
     // If an equal file were not reused, each save would write the design again under a new name.
-    if std::fs::read(folder.join(bundled)).is_ok_and(|existing| existing == bytes) {
+    if read::read(&folder.join(bundled)).is_ok_and(|existing| existing == bytes) {
         return Ok(bundled.to_owned());
     }
     let text =

@@ -1,6 +1,5 @@
 //! Autosave data: a project with unsaved changes, written as JSON and recovered at the next start.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -9,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::app::session::origin::{ProjectOrigin, absolute};
 use crate::design::DesignSource;
 use crate::io::atomic_file::AtomicFile;
+use crate::io::{path_text, read};
 use crate::project::{LoadedProject, Project, ProjectError};
 
 /// A project with unsaved changes.
@@ -26,7 +26,7 @@ pub struct UnsavedProject {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 enum UnsavedOrigin {
     Gallery(String),
-    File(PathBuf),
+    File(#[serde(with = "path_text")] PathBuf),
     Unsaved,
 }
 
@@ -97,7 +97,8 @@ impl UnsavedProject {
     /// # Errors
     /// The file does not exist or was not written by this program.
     pub fn read(path: &Path) -> io::Result<Self> {
-        Ok(serde_json::from_slice(&fs::read(path)?)?)
+        let bytes = read::read(path).map_err(io::Error::other)?;
+        Ok(serde_json::from_slice(&bytes)?)
     }
 }
 
@@ -105,6 +106,7 @@ impl UnsavedProject {
 mod tests {
     use super::*;
     use crate::project::gallery;
+    use std::fs;
 
     #[test]
     fn written_data_is_read_back() -> Result<(), Box<dyn std::error::Error>> {
