@@ -144,4 +144,23 @@ mod tests {
         assert!(error.is_some_and(|error| error.contains("16:9")));
         Ok(())
     }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_refused_and_any_folder_is_stored() -> io::Result<()> {
+        use std::os::unix::ffi::OsStrExt;
+        let folder = tempfile::tempdir()?;
+        let pipe = folder.path().join("pipe.toml");
+        std::process::Command::new("mkfifo").arg(&pipe).status()?;
+        // Opening the pipe would block for ever.
+        assert!(FilmPresets::read(&pipe).is_err());
+        let text = "[talk]\naspect = \"4:3\"\nlines = 720\nfps = 25\n";
+        let mut presets = FilmPresets::parse(text).map_err(io::Error::other)?;
+        let talk = presets.0.get_mut("talk").ok_or(io::ErrorKind::NotFound)?;
+        talk.folder = Some(Path::new(std::ffi::OsStr::from_bytes(b"/films/\xe9")).to_owned());
+        let path = folder.path().join("films.toml");
+        presets.write(&path)?;
+        assert_eq!(FilmPresets::read(&path)?, presets);
+        Ok(())
+    }
 }

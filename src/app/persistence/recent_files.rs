@@ -281,4 +281,26 @@ mod tests {
         std::fs::write(&path, "opened = 3").expect("a file");
         assert!(StoredRecentFiles::of_file(Some(path)).entries().is_empty());
     }
+
+    #[cfg(unix)]
+    #[test]
+    fn pipes_are_not_opened_and_any_path_is_stored() {
+        use std::os::unix::ffi::OsStrExt;
+        let folder = tempfile::tempdir().expect("a folder");
+        let pipe = folder.path().join("recent.toml");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.expect("mkfifo").success());
+        // Opening the pipe would block for ever.
+        assert!(StoredRecentFiles::of_file(Some(pipe)).entries().is_empty());
+        let file = folder.path().join(std::ffi::OsStr::from_bytes(b"\xe9.svg"));
+        std::fs::write(&file, "").expect("a file");
+        let path = folder.path().join("others.toml");
+        let mut stored = StoredRecentFiles::of_file(Some(path.clone()));
+        let entry = RecentEntry { files: vec![file] };
+        stored.set_export_folder(&entry.files[0]).expect("a file");
+        stored.add(entry.clone()).expect("a file");
+        let again = StoredRecentFiles::of_file(Some(path));
+        assert_eq!(again.entries(), std::slice::from_ref(&entry));
+        assert_eq!(again.export_folder(), Some(entry.files[0].as_path()));
+    }
 }

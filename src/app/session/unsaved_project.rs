@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::app::session::origin::{ProjectOrigin, absolute};
 use crate::design::DesignSource;
 use crate::io::atomic_file::AtomicFile;
-use crate::io::{path_text, read};
+use crate::io::path_text;
+use crate::io::read::{self, ReadError};
 use crate::project::{LoadedProject, Project, ProjectError};
 
 /// A project with unsaved changes.
@@ -92,13 +93,16 @@ impl UnsavedProject {
         file.commit()
     }
 
-    /// Reads the data from `path`.
+    /// Reads the data from `path`; `None` if there is no file.
     ///
     /// # Errors
-    /// The file does not exist or was not written by this program.
-    pub fn read(path: &Path) -> io::Result<Self> {
-        let bytes = read::read(path).map_err(io::Error::other)?;
-        Ok(serde_json::from_slice(&bytes)?)
+    /// The file cannot be read or was not written by this program.
+    pub fn read(path: &Path) -> io::Result<Option<Self>> {
+        match read::read(path) {
+            Ok(bytes) => Ok(Some(serde_json::from_slice(&bytes)?)),
+            Err(ReadError::Missing) => Ok(None),
+            Err(error) => Err(io::Error::other(error)),
+        }
     }
 }
 
@@ -118,7 +122,7 @@ mod tests {
         let origin = ProjectOrigin::Gallery(name);
         let unsaved = UnsavedProject::new("changed".to_owned(), &origin, &loaded)?;
         unsaved.write(&path)?;
-        let again = UnsavedProject::read(&path)?;
+        let again = UnsavedProject::read(&path)?.ok_or("no file")?;
         assert_eq!((&again, again.origin()), (&unsaved, origin));
         assert_eq!(again.load()?.project, loaded.project);
         fs::write(&path, "nothing of ours")?;
