@@ -11,6 +11,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
+use crate::app::conflict_question::ConflictQuestion;
 use crate::app::input::intent::{Intent, RecoveryAnswer};
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::notices::{NoticeTopic, Notices};
@@ -241,6 +242,7 @@ pub fn answer_recovery(
     mut autosave: ResMut<Autosave>,
     mut session: ResMut<Session>,
     question: Res<UnsavedQuestion>,
+    conflict: Res<ConflictQuestion>,
     mut notices: ResMut<Notices>,
 ) {
     for intent in intents.read() {
@@ -248,7 +250,9 @@ pub fn answer_recovery(
             Intent::AnswerRecovery(answer) => *answer,
             // If another question is open above the offer to recover, Esc closes only that
             // question.
-            Intent::Escape if question.text().is_none() => RecoveryAnswer::Later,
+            Intent::Escape if question.text().is_none() && !conflict.is_open => {
+                RecoveryAnswer::Later
+            }
             _ => continue,
         };
         if autosave.abandoned.is_empty() {

@@ -18,6 +18,9 @@ pub struct UnsavedProject {
     /// Title of the project.
     pub title: String,
     origin: UnsavedOrigin,
+    /// Hash of the project file as it was read or last saved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    file_hash: Option<u64>,
     /// Text of the project file, with absolute paths to the designs; bundled designs keep their
     /// gallery names.
     document: String,
@@ -49,6 +52,7 @@ impl UnsavedProject {
         }
         Ok(Self {
             title,
+            file_hash: loaded.file_hash,
             origin: match origin {
                 ProjectOrigin::Gallery(name) => UnsavedOrigin::Gallery(name.clone()),
                 ProjectOrigin::File(path) => {
@@ -80,7 +84,9 @@ impl UnsavedProject {
             UnsavedOrigin::File(path) => Some(path.parent().unwrap_or(Path::new("")).to_owned()),
             UnsavedOrigin::Unsaved => Some(PathBuf::new()),
         };
-        LoadedProject::load(Project::parse(&self.document)?, folder)
+        let mut loaded = LoadedProject::load(Project::parse(&self.document)?, folder)?;
+        loaded.file_hash = self.file_hash;
+        Ok(loaded)
     }
 
     /// Writes the data to `path` atomically.

@@ -1,13 +1,14 @@
 //! Modal questions to the user: whether to save unsaved changes or stop an export, whether to
-//! recover unsaved work, and where a single opened or dropped design goes.
+//! recover unsaved work, what to do with a project file that was changed elsewhere, and where a
+//! single opened or dropped design goes.
 
 use std::path::Path;
 use std::time::Duration;
 
 use bevy_egui::egui::text::LayoutJob;
-use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Rect, TextStyle, Ui};
+use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Rect, Response, TextStyle, Ui};
 
-use crate::app::input::intent::{Intent, RecoveryAnswer, UnsavedAnswer};
+use crate::app::input::intent::{ConflictAnswer, Intent, RecoveryAnswer, UnsavedAnswer};
 use crate::app::ui::kit::text::shortened;
 use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::kit::widgets::primary_button;
@@ -23,7 +24,9 @@ const MAX_ROWS: usize = 12;
 
 /// Draws the question that waits for an answer, if there is one; returns its rectangle.
 pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) -> Option<Rect> {
-    let question = if let (Some(words), Some(kind)) = (state.question.text(), state.question.kind()) {
+    let question = if state.conflict.is_open {
+        ask_conflict(ctx, &state.session.title(), intents)
+    } else if let (Some(words), Some(kind)) = (state.question.text(), state.question.kind()) {
         ask_before_closing(ctx, kind, words, intents)
     } else if let Some((title, age)) = state.autosave.recoverable() {
         ask_recover(ctx, title, age, intents)
@@ -89,6 +92,33 @@ fn ask_before_closing(
             };
             answer(ui, discard, UnsavedAnswer::Discard);
             answer(ui, "Cancel", UnsavedAnswer::Cancel);
+        });
+    })
+}
+
+/// Asks what to do with a project file that was changed elsewhere.
+fn ask_conflict(ctx: &Context, title: &str, intents: &mut Intents) -> Rect {
+    dialog(ctx, "conflict", 440.0, |ui| {
+        ui.heading("The file has changed");
+        let text = format!(
+            "Another program or window has changed the file of “{title}” since it was opened or \
+             last saved here."
+        );
+        sentence(ui, &text);
+        answers(ui, |ui| {
+            let mut answer = |button: Response, tip: &str, answer: ConflictAnswer| {
+                if button.on_hover_text(tip).clicked() {
+                    intents.push(Intent::AnswerConflict(answer));
+                }
+            };
+            let tip = "Saves your version in another file.";
+            answer(primary_button(ui, "Save as …"), tip, ConflictAnswer::SaveAs);
+            let tip = "Replaces the file by your version.";
+            answer(ui.button("Keep mine"), tip, ConflictAnswer::KeepMine);
+            let tip = "Discards your changes and opens the file.";
+            answer(ui.button("Take theirs"), tip, ConflictAnswer::TakeTheirs);
+            let tip = "Does not save (Esc).";
+            answer(ui.button("Cancel"), tip, ConflictAnswer::Cancel);
         });
     })
 }
@@ -232,9 +262,10 @@ mod tests {
             "/folder".repeat(1_500),
         ] {
             let text = format!("“{title}” has unsaved changes.");
-            let dialogs: [&dyn Fn(&Context) -> Rect; 2] = [
+            let dialogs: [&dyn Fn(&Context) -> Rect; 3] = [
                 &|ctx| ask_before_closing(ctx, UnsavedKind::Changes, &text, &mut Vec::new()),
                 &|ctx| ask_recover(ctx, &title, Some(Duration::ZERO), &mut Vec::new()),
+                &|ctx| ask_conflict(ctx, &title, &mut Vec::new()),
             ];
             for dialog in dialogs {
                 let rect = drawn(window, dialog);
