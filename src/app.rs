@@ -28,6 +28,7 @@
 mod analysis;
 mod capture;
 mod compare;
+mod conflict_question;
 mod editing;
 mod escape;
 mod files;
@@ -67,6 +68,7 @@ pub mod testing {
     pub use super::analysis::suggestions::{SuggestedChange, Suggestion, Suggestions};
     pub use super::capture::film_exporter::FilmExporter;
     pub use super::compare::comparison::{Comparison, OnComparison};
+    pub use super::conflict_question::ConflictQuestion;
     pub use super::editing::editor::{CutEnd, EditorGrab, EditorHandle, MatchEditor};
     pub use super::editing::panes::{EditorPanes, PaneView};
     pub use super::editing::sheet::{MatchSheet, PieceFate};
@@ -77,7 +79,9 @@ pub mod testing {
     pub use super::files::project_actions::GalleryEntries;
     pub use super::input::editor_action::{EditorAction, EditorPane, EditorPointer, EditorTool};
     pub use super::input::gesture::KeyboardFocus;
-    pub use super::input::intent::{ExportKind, Intent, RecoveryAnswer, UnsavedAnswer};
+    pub use super::input::intent::{
+        ConflictAnswer, ExportKind, Intent, RecoveryAnswer, UnsavedAnswer,
+    };
     pub use super::input::key_map::{KeyBinding, KeyMap, KeyModifiers, KeyTableRow, KeyTrigger};
     pub use super::input::preferences::{
         ComparisonMethod, FilmExportOptions, FilmFileFormat, ImageScale, Preferences, ThemeChoice,

@@ -7,5 +7,6 @@ pub(crate) mod escape;
 pub(crate) mod file_id;
 #[cfg(feature = "cli")]
 pub(crate) mod file_name;
+pub(crate) mod path_text;
 pub(crate) mod read;
 pub(crate) mod sanitize;

@@ -15,6 +15,8 @@ use crate::app::capture::film_exporter;
 use crate::app::capture::{estimate, film_framing, saved_blends};
 use crate::app::compare::comparison;
 use crate::app::compare::comparison::Comparison;
+use crate::app::conflict_question;
+use crate::app::conflict_question::ConflictQuestion;
 use crate::app::editing::editor::MatchEditor;
 use crate::app::editing::sheet::MatchSheet;
 use crate::app::editing::{actions, refresh};
@@ -117,6 +119,7 @@ fn init_resources(app: &mut App) {
         .init_resource::<saved_blends::SavedBlendsExport>()
         .init_resource::<Notices>()
         .init_resource::<UnsavedQuestion>()
+        .init_resource::<ConflictQuestion>()
         .init_resource::<Autosave>()
         .init_resource::<film_presets::StoredPresets>()
         .init_resource::<recent_files::StoredRecentFiles>()
@@ -157,6 +160,7 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
             autosave::answer_recovery,
             unsaved_question::answer,
             unsaved_question::close,
+            conflict_question::answer,
         )
             .chain(),
         (

@@ -25,6 +25,10 @@ pub enum NoticeTopic {
     Transition,
     /// Saving the project.
     Saving,
+    /// Changes that are not autosaved. The notice stays until they are, because they may be lost.
+    Autosave,
+    /// Autosaves in another place than usual, or damaged ones.
+    AutosaveFiles,
     /// A file name that the file dialog does not accept.
     FileName,
     /// Exporting a film or a comparison sheet.
@@ -46,7 +50,20 @@ pub enum NoticeKind {
     Note,
 }
 
+impl NoticeTopic {
+    /// Whether the topic concerns the program and not the open project.
+    fn outlives_project(self) -> bool {
+        matches!(self, Self::Autosave | Self::AutosaveFiles)
+    }
+}
+
 impl NoticeKind {
+    /// Whether the user can dismiss notices of this kind.
+    #[must_use]
+    pub fn is_dismissible(self) -> bool {
+        self != Self::Problem(NoticeTopic::Autosave)
+    }
+
     /// Seconds for which a notice of this kind stays; `None` for problems, which do not expire.
     fn stays_secs(self) -> Option<f32> {
         match self {
@@ -120,7 +137,8 @@ impl Notices {
     /// because an action such as saving may just have been confirmed.
     pub fn leave_project(&mut self) {
         self.list.retain(|notice| match notice.kind {
-            NoticeKind::Problem(_) | NoticeKind::Note => false,
+            NoticeKind::Problem(topic) => topic.outlives_project(),
+            NoticeKind::Note => false,
             NoticeKind::Confirmation | NoticeKind::FileWritten => true,
         });
     }
@@ -193,7 +211,8 @@ pub fn apply(
 ) {
     for intent in intents.read() {
         if let Intent::DismissNotice(id) = intent {
-            notices.list.retain(|notice| notice.id != *id);
+            let stays = |notice: &Notice| notice.id != *id || !notice.kind.is_dismissible();
+            notices.list.retain(stays);
         }
     }
     // Ageing is no visible change and must not trigger a redraw.

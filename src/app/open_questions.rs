@@ -3,15 +3,17 @@
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::Res;
 
+use crate::app::conflict_question::ConflictQuestion;
 use crate::app::files::drop::DroppedDesign;
 use crate::app::persistence::autosave::Autosave;
 use crate::app::unsaved_question::UnsavedQuestion;
 
-/// The questions that may be open: whether to save, where to put a dropped design, and whether to
-/// recover unsaved work.
+/// The questions that may be open: whether to save, what to do with a file that was changed
+/// elsewhere, where to put a dropped design, and whether to recover unsaved work.
 #[derive(SystemParam)]
 pub struct OpenQuestions<'w> {
     unsaved: Res<'w, UnsavedQuestion>,
+    conflict: Res<'w, ConflictQuestion>,
     drop: Res<'w, DroppedDesign>,
     autosave: Res<'w, Autosave>,
 }
@@ -21,6 +23,7 @@ impl OpenQuestions<'_> {
     #[must_use]
     pub fn any(&self) -> bool {
         self.unsaved.text().is_some()
+            || self.conflict.is_open
             || self.drop.is_pending()
             || self.autosave.recoverable().is_some()
     }

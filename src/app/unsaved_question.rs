@@ -9,6 +9,7 @@ use bevy::prelude::{
 use bevy::window::{PrimaryWindow, Window, WindowCloseRequested};
 
 use crate::app::capture::film_exporter::FilmExporter;
+use crate::app::conflict_question::ConflictQuestion;
 use crate::app::input::intent::{Intent, UnsavedAnswer};
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::session::state::Session;
@@ -123,11 +124,14 @@ pub fn answer(
     exporter: Res<FilmExporter>,
     notices: Res<Notices>,
     mut question: ResMut<UnsavedQuestion>,
+    conflict: Res<ConflictQuestion>,
     mut commands: Commands,
 ) {
     let mut next = Vec::new();
     for intent in intents.read() {
         match intent {
+            // Esc closes only the topmost question.
+            Intent::Escape if conflict.is_open => {}
             Intent::AnswerUnsaved(UnsavedAnswer::Cancel) | Intent::Escape => {
                 // Esc cancels an open question only; once answered, the intent keeps waiting.
                 question.pending.take_if(|pending| !pending.is_answered);

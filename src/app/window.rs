@@ -71,7 +71,7 @@ fn program(options: AppOptions) -> App {
         film_memory,
         starts_talk,
     } = options;
-    let autosave = autosave();
+    let autosave = Autosave::start_in(&autosave::folders());
     let recent = StoredRecentFiles::of_file(RecentFiles::default_path());
     let last_export = recent.export_folder().map(Path::to_owned);
     let mut app = App::new();
@@ -131,17 +131,6 @@ fn let_jobs_wake_window(events: Res<EventLoopProxyWrapper>) {
         // Sending fails only after the window has closed, when nothing needs waking.
         events.send_event(WinitUserEvent::WakeUp).ok();
     });
-}
-
-/// Autosave in the user's state folder; switched off if that folder cannot be used.
-fn autosave() -> Autosave {
-    let Some(folder) = autosave::folder() else {
-        return Autosave::default();
-    };
-    Autosave::start_in(&folder).unwrap_or_else(|error| {
-        warn!("autosave is off: cannot use {}: {error}", folder.display());
-        Autosave::default()
-    })
 }
 
 /// Returns the intent with which the window starts: to open the files of the command line, or,

@@ -17,6 +17,7 @@
 //! or not such a file exists: a mistyped path is an error, not a text in another font. Otherwise
 //! the `@` belongs to the text.
 
+use crate::io::path_text::{percent_decoded, rsplit_path_once, split_path_once};
 use crate::io::sanitize::SanitizedName;
 use std::borrow::Cow;
 use std::ffi::OsString;
@@ -72,7 +73,7 @@ impl DesignSource {
     #[must_use]
     pub fn parse(path: &Path, is_file: impl Fn(&Path) -> bool) -> Self {
         let Some(notation) = path.to_str() else {
-            return Self::from_file_path(path);
+            return Self::parse_bytes(path, is_file);
         };
         if let Some(glyphs) = notation.strip_prefix(GLYPH) {
             return parse_text(glyphs);
@@ -87,6 +88,30 @@ impl DesignSource {
             }
             _ => Self::from_file_path(path),
         }
+    }
+
+    /// Parses a notation that is not UTF-8, because of the name of its file.
+    fn parse_bytes(path: &Path, is_file: impl Fn(&Path) -> bool) -> Self {
+        if let Some((text, font)) = split_path_once(path, b'@')
+            && let Some(text) = text.to_str().and_then(|text| text.strip_prefix(GLYPH))
+            && names_font(&font.to_string_lossy())
+        {
+            return Self::Text {
+                text: percent_decode(text),
+                font: Some(font),
+            };
+        }
+        if let Some((file, id)) = rsplit_path_once(path, b'#')
+            && let Some(id) = id.to_str().filter(|id| !id.is_empty())
+            && file != Path::new("")
+            && !is_file(path)
+        {
+            return Self::File {
+                path: file,
+                element: Some(id.to_owned()),
+            };
+        }
+        Self::from_file_path(path)
     }
 
     fn from_file_path(path: &Path) -> Self {
@@ -165,7 +190,7 @@ impl DesignSource {
 fn parse_text(written: &str) -> DesignSource {
     // Splits at the first `@`, because folder names may contain one; in the text it can be escaped.
     let (text, font) = match written.split_once('@') {
-        Some((text, font)) if font.contains(['.', '/', '\\']) => (text, Some(font.into())),
+        Some((text, font)) if names_font(font) => (text, Some(font.into())),
         _ => (written, None),
     };
     DesignSource::Text {
@@ -174,22 +199,16 @@ fn parse_text(written: &str) -> DesignSource {
     }
 }
 
+/// Returns whether the words after an `@` are the path of a font.
+fn names_font(words: &str) -> bool {
+    words.contains(['.', '/', '\\'])
+}
+
 /// Decodes percent-encoding. Invalid codes stay as they are, and so does the whole text if
 /// the decoded bytes are not UTF-8.
 fn percent_decode(text: &str) -> String {
-    let mut parts = text.split('%');
-    let mut bytes = parts.next().unwrap_or_default().as_bytes().to_vec();
-    for part in parts {
-        // The test for digits is needed because `from_str_radix` also accepts a sign.
-        let code = part
-            .get(..2)
-            .filter(|c| c.bytes().all(|b| b.is_ascii_hexdigit()));
-        let byte = code.and_then(|code| u8::from_str_radix(code, 16).ok());
-        bytes.push(byte.unwrap_or(b'%'));
-        bytes.extend(&part.as_bytes()[if byte.is_some() { 2 } else { 0 }..]);
-    }
     // Bytes that are not UTF-8 show that the text was not meant as percent-encoded.
-    String::from_utf8(bytes).unwrap_or_else(|_| text.to_owned())
+    String::from_utf8(percent_decoded(text)).unwrap_or_else(|_| text.to_owned())
 }
 
 #[cfg(test)]
@@ -241,6 +260,32 @@ mod tests {
             let again = source.to_path();
             assert_eq!(parsed(again.to_str().expect("text")), source, "{written}");
         }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn file_names_need_not_be_text() {
+        use std::os::unix::ffi::OsStrExt;
+        let path = |bytes: &[u8]| PathBuf::from(std::ffi::OsStr::from_bytes(bytes));
+        let cafe = |element: Option<&str>| DesignSource::File {
+            path: path(b"caf\xe9.svg"),
+            element: element.map(str::to_owned),
+        };
+        let font = DesignSource::Text {
+            text: "D@".to_owned(),
+            font: Some(path(b"caf\xe9.ttf")),
+        };
+        for source in [cafe(None), cafe(Some("stalk")), font] {
+            let parsed = DesignSource::parse(&source.to_path(), |_| false);
+            assert_eq!(parsed, source);
+        }
+        for bytes in [&b"caf\xe9.svg#"[..], b"a#\xe9.svg", b"#\xe9"] {
+            let whole = DesignSource::from_file_path(&path(bytes));
+            assert_eq!(DesignSource::parse(&path(bytes), |_| false), whole);
+        }
+        let file = path(b"caf\xe9#b.svg");
+        let whole = DesignSource::from_file_path(&file);
+        assert_eq!(DesignSource::parse(&file, |_| true), whole);
     }
 
     #[test]

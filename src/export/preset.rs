@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::layout::{Aspect, PictureLayout};
 use super::target::FilmKind;
 use crate::io::atomic_file::AtomicFile;
+use crate::io::path_text;
+use crate::io::read::{self, ReadError};
 
 /// Export settings for films: everything except duration and easing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,7 +33,11 @@ pub struct FilmPreset {
     pub file: Option<FilmKind>,
     /// Folder that the window offers first for the exported film; `None` leaves it as it is. The
     /// command line names the output file itself.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        with = "path_text::option"
+    )]
     pub folder: Option<PathBuf>,
 }
 
@@ -82,10 +88,10 @@ impl FilmPresets {
     /// # Errors
     /// If the file cannot be read or parsed.
     pub fn read(path: &Path) -> io::Result<Self> {
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse(&text).map_err(io::Error::other),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
-            Err(error) => Err(error),
+        match read::read(path) {
+            Ok(bytes) => toml::from_slice(&bytes).map_err(io::Error::other),
+            Err(ReadError::Missing) => Ok(Self::default()),
+            Err(error) => Err(io::Error::other(error)),
         }
     }
 
@@ -136,6 +142,25 @@ mod tests {
             .err()
             .map(|error| error.to_string());
         assert!(error.is_some_and(|error| error.contains("16:9")));
+        Ok(())
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_refused_and_any_folder_is_stored() -> io::Result<()> {
+        use std::os::unix::ffi::OsStrExt;
+        let folder = tempfile::tempdir()?;
+        let pipe = folder.path().join("pipe.toml");
+        std::process::Command::new("mkfifo").arg(&pipe).status()?;
+        // Opening the pipe would block for ever.
+        assert!(FilmPresets::read(&pipe).is_err());
+        let text = "[talk]\naspect = \"4:3\"\nlines = 720\nfps = 25\n";
+        let mut presets = FilmPresets::parse(text).map_err(io::Error::other)?;
+        let talk = presets.0.get_mut("talk").ok_or(io::ErrorKind::NotFound)?;
+        talk.folder = Some(Path::new(std::ffi::OsStr::from_bytes(b"/films/\xe9")).to_owned());
+        let path = folder.path().join("films.toml");
+        presets.write(&path)?;
+        assert_eq!(FilmPresets::read(&path)?, presets);
         Ok(())
     }
 }

@@ -6,6 +6,7 @@ use super::title::title_of;
 use crate::content::ContentKind;
 use crate::design::{DesignSource, ImportOptions};
 use crate::geometry::Similarity;
+use crate::io::path_text;
 use crate::transition::{
     CachedMatch, DesignFit, Timing, TransitionOptions, TransitionStop, TransitionStyle,
 };
@@ -95,7 +96,9 @@ pub struct Project {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct DesignEntry {
     /// Path of the file relative to the project file, with `/` between folders; or an element of a
-    /// drawing, or text, in the forms of [`DesignSource`].
+    /// drawing, or text, in the forms of [`DesignSource`]. A path that is not UTF-8 is stored
+    /// percent-encoded, such as `file:caf%E9.svg`.
+    #[serde(with = "path_text")]
     pub path: PathBuf,
     /// Name of the design; if empty, the file name is used.
     #[serde(default, skip_serializing_if = "String::is_empty")]

@@ -48,6 +48,9 @@ pub struct LoadedProject {
     pub designs: Vec<Arc<Design>>,
     /// Folder to which the paths of the designs are relative; `None` for a bundled project.
     pub folder: Option<PathBuf>,
+    /// Hash of the project file as it was read or last saved, see [`Project::file_hash`]; `None` if
+    /// there is no file.
+    pub file_hash: Option<u64>,
     /// Whether jobs beyond the limits of [`crate::work::budget`] may start.
     pub patient: bool,
     /// All designs of the sequence, if this project is one of its segments.
@@ -90,9 +93,11 @@ impl LoadedProject {
     /// # Errors
     /// [`ProjectError`] names the file and the place in it.
     pub fn open(path: &Path) -> Result<Self, ProjectError> {
-        let project = Project::read(path)?;
+        let (project, file_hash) = Project::read_with_hash(path)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        Self::load(project, Some(folder))
+        let mut loaded = Self::load(project, Some(folder))?;
+        loaded.file_hash = Some(file_hash);
+        Ok(loaded)
     }
 
     /// Returns whether this project is one segment of a sequence or of a path.
@@ -157,6 +162,7 @@ impl LoadedProject {
                 project: self.project.segment(segment),
                 designs: designs.map(|k| Arc::clone(&self.designs[k])).to_vec(),
                 folder: self.folder.clone(),
+                file_hash: None,
                 patient: self.patient,
                 sequence: Some(Arc::clone(&sequence)),
                 path_segment: None,
@@ -189,6 +195,7 @@ impl LoadedProject {
             designs: designs?,
             project,
             folder,
+            file_hash: None,
             patient: false,
             sequence: None,
             path_segment: None,

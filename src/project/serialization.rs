@@ -15,6 +15,7 @@ use crate::transition::{PartTime, TransitionOptions};
 use serde::de::value::Error as NoValue;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 use serde::forward_to_deserialize_any;
+use std::hash::{DefaultHasher, Hasher};
 use std::io::{self, ErrorKind};
 use std::path::Path;
 use toml::Spanned;
@@ -88,10 +89,26 @@ impl Project {
     /// # Errors
     /// [`ProjectError`] names the file and, where there is one, the line.
     pub fn read(path: &Path) -> Result<Self, ProjectError> {
+        Ok(Self::read_with_hash(path)?.0)
+    }
+
+    /// Reads a project file, without its designs, and returns its [`Self::file_hash`] too.
+    pub(super) fn read_with_hash(path: &Path) -> Result<(Self, u64), ProjectError> {
         let in_file = |error: ProjectError| error.in_file(path);
         let bytes = read::read(path).map_err(|error| in_file(error.into()))?;
+        let hash = Self::file_hash(&bytes);
         let text = String::from_utf8(bytes).map_err(|_| in_file(ProjectError::NotText))?;
-        Self::parse(&text).map_err(in_file)
+        Ok((Self::parse(&text).map_err(in_file)?, hash))
+    }
+
+    /// Returns a hash of the bytes of a project file, by which changes of the file are recognised.
+    ///
+    /// Not cryptographic, and different versions of the program may return different hashes.
+    #[must_use]
+    pub fn file_hash(bytes: &[u8]) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        hasher.write(bytes);
+        hasher.finish()
     }
 
     /// Returns the project as TOML text.

@@ -338,3 +338,33 @@ fn fonts_are_found_relative_to_the_project_file() {
     let [thin, file] = [0, 1].map(|k| loaded.designs[k].outline(0.0).unwrap().area());
     assert!(thin > 10_000.0 && file == 0.5, "{thin} {file}");
 }
+
+#[cfg(unix)]
+#[test]
+fn names_of_files_that_are_no_text_are_saved_and_opened() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    let name = |bytes: &[u8]| Path::new(std::ffi::OsStr::from_bytes(bytes)).to_owned();
+    let names = [
+        name(b"caf\xe9 50%.json"),
+        name("file:\u{e9}%20.json".as_bytes()),
+    ];
+    for name in &names {
+        std::fs::write(folder.path().join(name), "[[0,0],[4,0],[4,3],[0,3]]").unwrap();
+    }
+    let project = Project::from_paths(names);
+    let path = folder.path().join(name(b"\xff.morph"));
+    project.save_atomically(&path).unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(
+        text.contains(r#"path = "file:caf%E9 50%25.json""#),
+        "{text}"
+    );
+    assert!(
+        text.contains("path = \"file:\u{e9}%20.json\""),
+        "only as needed"
+    );
+    let loaded = LoadedProject::open(&path).unwrap();
+    assert_eq!(loaded.project, project);
+    assert_eq!(loaded.designs.len(), 2);
+}

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use bevy::input::keyboard::{Key, KeyCode};
 use morphospace::app::testing::{
-    CaptureFolder, DialogPurpose, ExportKind, FileDialogRequest, FilmExporter, Intent, NoticeKind,
-    Notices, UnsavedAnswer,
+    CaptureFolder, ConflictAnswer, ConflictQuestion, DialogPurpose, ExportKind, FileDialogRequest,
+    FilmExporter, Intent, NoticeKind, Notices, UnsavedAnswer,
 };
 use morphospace::work::progress::Silent;
 
@@ -359,4 +359,140 @@ fn a_preset_stores_the_export_folder() {
     window.send(Intent::AskExport(ExportKind::Film));
     let dialog: &FileDialogRequest = window.0.world().resource();
     assert_eq!(dialog.folder(), Some(first.path()));
+}
+
+/// Whether the window asks about a file that was changed elsewhere.
+fn asks_about_conflict(window: &HeadlessWindow) -> bool {
+    window.0.world().resource::<ConflictQuestion>().is_open
+}
+
+/// Two windows with the same project file, which the second has changed since the first opened it;
+/// also returns the text of the file. The project of the first window has unsaved changes.
+fn window_with_conflict(path: &Path) -> (HeadlessWindow, String) {
+    with_change().send(Intent::SaveTo(path.to_owned()));
+    let mut windows = [(); 2].map(|()| {
+        let mut window = HeadlessWindow::new();
+        window.send(Intent::Open(vec![path.to_owned()]));
+        window.wait();
+        window.send(Intent::CyclePlayMode);
+        window
+    });
+    windows[1].send(Intent::CyclePlayMode);
+    windows[1].send(Intent::Save);
+    assert!(!asks_about_conflict(&windows[1]) && !windows[1].session().is_dirty());
+    let [mut window, _] = windows;
+    window.send(Intent::Save);
+    assert!(asks_about_conflict(&window) && window.session().is_dirty());
+    (window, std::fs::read_to_string(path).expect("text"))
+}
+
+#[test]
+fn a_file_that_another_window_changed_is_replaced_only_if_the_user_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.morph");
+    let (mut window, theirs) = window_with_conflict(&path);
+    let text = || std::fs::read_to_string(&path).expect("text");
+    window.press(KeyCode::Escape, Key::Escape);
+    assert!(!asks_about_conflict(&window) && reports_cancelled_save(&window));
+    assert_eq!(text(), theirs);
+    window.send(Intent::Save);
+    window.send(Intent::AnswerConflict(ConflictAnswer::KeepMine));
+    assert!(!asks_about_conflict(&window) && !window.session().is_dirty());
+    assert_ne!(text(), theirs);
+    // The file is now the one that this window saved.
+    window.send(Intent::CyclePlayMode);
+    window.send(Intent::Save);
+    assert!(!asks_about_conflict(&window) && !window.session().is_dirty());
+}
+
+#[test]
+fn the_version_of_another_window_can_be_opened_instead() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.morph");
+    let (mut window, theirs) = window_with_conflict(&path);
+    let mine = window.session().timing().play;
+    window.send(Intent::AnswerConflict(ConflictAnswer::TakeTheirs));
+    window.wait();
+    assert!(!window.session().is_dirty());
+    assert_ne!(window.session().timing().play, mine);
+    assert_eq!(std::fs::read_to_string(&path).expect("text"), theirs);
+}
+
+#[test]
+fn a_conflicting_version_can_be_saved_in_another_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.morph");
+    let (mut window, theirs) = window_with_conflict(&path);
+    window.send(Intent::AnswerConflict(ConflictAnswer::SaveAs));
+    window.update();
+    let other = folder.path().join("other.morph");
+    choose(&mut window, &[&other]);
+    assert_eq!(window.session().path(), Some(other.as_path()));
+    assert!(other.is_file() && !window.session().is_dirty());
+    assert_eq!(std::fs::read_to_string(&path).expect("text"), theirs);
+}
+
+#[test]
+fn closing_waits_for_the_answer_about_a_changed_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, answer, is_replaced) in [
+        ("a.morph", ConflictAnswer::KeepMine, true),
+        ("b.morph", ConflictAnswer::TakeTheirs, false),
+    ] {
+        let path = folder.path().join(name);
+        let (mut window, theirs) = window_with_conflict(&path);
+        window.send(Intent::AnswerConflict(ConflictAnswer::Cancel));
+        window.send(Intent::Close);
+        window.send(Intent::AnswerUnsaved(UnsavedAnswer::Save));
+        window.update();
+        assert!(asks_about_conflict(&window) && window.0.should_exit().is_none());
+        window.send(Intent::AnswerConflict(answer));
+        let mut updates = 0;
+        while window.0.should_exit().is_none() && updates < 5 {
+            window.update();
+            updates += 1;
+        }
+        assert!(window.0.should_exit().is_some(), "{answer:?}");
+        let is_theirs = std::fs::read_to_string(&path).expect("text") == theirs;
+        assert_eq!(is_theirs, !is_replaced);
+    }
+}
+
+#[test]
+fn a_touched_or_deleted_file_raises_no_question() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.morph");
+    let mut window = with_change();
+    window.send(Intent::SaveTo(path.clone()));
+    let bytes = std::fs::read(&path).expect("a file");
+    std::fs::write(&path, bytes).expect("written again");
+    window.send(Intent::CyclePlayMode);
+    window.send(Intent::Save);
+    assert!(!asks_about_conflict(&window) && !window.session().is_dirty());
+    std::fs::remove_file(&path).expect("there");
+    window.send(Intent::CyclePlayMode);
+    window.send(Intent::Save);
+    assert!(!asks_about_conflict(&window) && path.is_file());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_project_whose_name_and_designs_are_no_text_is_saved_and_opened() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &[u8]| folder.path().join(std::ffi::OsStr::from_bytes(name));
+    let files = [path(b"a\xe9.json"), path(b"b%20\xff.json")];
+    for file in &files {
+        std::fs::write(file, "[[0,0],[4,0],[4,3],[0,3]]").expect("a file");
+    }
+    let mut window = HeadlessWindow::new();
+    window.send(Intent::Open(files.to_vec()));
+    window.wait();
+    let project = path(b"\xe9.morph");
+    window.send(Intent::SaveTo(project.clone()));
+    assert_eq!(window.problems(), Vec::<String>::new());
+    let mut reopened = HeadlessWindow::new();
+    reopened.send(Intent::Open(vec![project]));
+    reopened.wait();
+    assert_eq!(reopened.session().files(), files);
 }

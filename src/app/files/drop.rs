@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource};
 use bevy::window::FileDragAndDrop;
 
+use crate::app::conflict_question::ConflictQuestion;
 use crate::app::input::intent::Intent;
 use crate::app::persistence::autosave::Autosave;
 use crate::app::presentation::presenter::Presentation;
@@ -103,10 +104,12 @@ pub fn close_drop_question(
     mut intents: MessageReader<Intent>,
     mut dropped: ResMut<DroppedDesign>,
     question: Res<UnsavedQuestion>,
+    conflict: Res<ConflictQuestion>,
     autosave: Res<Autosave>,
 ) {
     // Esc closes only the topmost question.
-    let is_topmost = question.text().is_none() && autosave.recoverable().is_none();
+    let is_topmost =
+        question.text().is_none() && !conflict.is_open && autosave.recoverable().is_none();
     let is_decided = |intent: &Intent| match intent {
         Intent::Escape => is_topmost,
         intent => matches!(

@@ -10,11 +10,12 @@ use bevy::prelude::{
     Commands, DetectChanges, DetectChangesMut, Local, MessageReader, Res, ResMut, Resource,
 };
 
+use crate::app::conflict_question::ConflictQuestion;
 use crate::app::editing::editor::MatchEditor;
 use crate::app::files::drop::DroppedDesign;
 use crate::app::files::invitation::START_PROJECT;
 use crate::app::input::gesture::Gesture;
-use crate::app::input::intent::Intent;
+use crate::app::input::intent::{ConflictAnswer, Intent};
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::playback::player::{Playback, STOP_TOLERANCE_T};
 use crate::app::presentation::presenter::Presentation;
@@ -302,10 +303,12 @@ fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
     is_added
 }
 
-/// Saves the project, reports the result, and sends the intent that waited for the save.
+/// Saves the project, reports the result, and sends the intent that waited for the save. Asks first
+/// if the file has been changed elsewhere.
 pub fn save(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
+    mut conflict: ResMut<ConflictQuestion>,
     mut question: ResMut<UnsavedQuestion>,
     mut notices: ResMut<Notices>,
     mut commands: Commands,
@@ -313,7 +316,12 @@ pub fn save(
     let mut waiting = None;
     for intent in intents.read() {
         let saved = match intent {
+            Intent::Save if session.is_changed_elsewhere() => {
+                conflict.is_open = true;
+                continue;
+            }
             Intent::Save if session.path().is_some() => session.save(None),
+            Intent::AnswerConflict(ConflictAnswer::KeepMine) => session.save(None),
             Intent::SaveTo(path) => session.save(Some(path)),
             _ => continue,
         };

@@ -222,6 +222,8 @@ pub enum Intent {
     AnswerUnsaved(UnsavedAnswer),
     /// Answer to the offer to recover unsaved work.
     AnswerRecovery(RecoveryAnswer),
+    /// Answer to the question about a project file that was changed elsewhere.
+    AnswerConflict(ConflictAnswer),
 }
 
 /// Kind of an export to a file.
@@ -231,6 +233,19 @@ pub enum ExportKind {
     Film,
     /// A sheet that compares all methods for the designs of the current segment.
     MethodSheet,
+}
+
+/// Answer to the question about a project file that another program or window has changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConflictAnswer {
+    /// Replace the file by the open project.
+    KeepMine,
+    /// Discard the changes of the open project and open the file again.
+    TakeTheirs,
+    /// Save the open project in another file.
+    SaveAs,
+    /// Do not save.
+    Cancel,
 }
 
 /// Answer to "Recover unsaved work?".

@@ -1,19 +1,25 @@
 //! Autosave: unsaved changes are written to the state folder within seconds, and offered for
 //! recovery at the next start after a crash, kill or power failure.
+//!
+//! If the state folder cannot be used, the folder for temporary files takes its place. A notice
+//! says so; if neither can be used, the notice stays until autosave works again.
 
+use std::convert::Infallible;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
+use crate::app::conflict_question::ConflictQuestion;
 use crate::app::input::intent::{Intent, RecoveryAnswer};
-use crate::app::jobs::job::{BackgroundJob, JobError};
+use crate::app::jobs::job::BackgroundJob;
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::output_files::ScratchFolder;
-use crate::app::persistence::autosave_slot::{AbandonedProject, AutosaveSlot};
+use crate::app::persistence::autosave_slot::{AbandonedProject, AutosaveSlot, LockedSlots};
 use crate::app::session::load::LoadRequest;
 use crate::app::session::state::Session;
+use crate::app::session::unsaved_project::UnsavedProject;
 use crate::app::unsaved_question::UnsavedQuestion;
 use crate::io::atomic_file::write_error_reason;
 use crate::project::Project;
@@ -22,56 +28,125 @@ use crate::project::Project;
 /// are lost (heuristic).
 const MIN_INTERVAL: Duration = Duration::from_secs(2);
 
-/// Folder for autosaves; `None` if the system has no such folder.
+/// Folders for autosaves, in order of preference.
 #[must_use]
-pub fn folder() -> Option<PathBuf> {
+pub fn folders() -> Vec<PathBuf> {
     let state = dirs::state_dir().or_else(dirs::data_local_dir);
-    state.map(|state| state.join("morphospace").join("autosave"))
+    let state = state.map(|state| state.join("morphospace").join("autosave"));
+    state.into_iter().chain([temporary_folder()]).collect()
+}
+
+/// Folder of this user within the folder for temporary files, which all users share.
+fn temporary_folder() -> PathBuf {
+    #[cfg(unix)]
+    let user = {
+        use std::os::unix::fs::MetadataExt;
+        let home = dirs::home_dir().and_then(|home| std::fs::metadata(home).ok());
+        home.map_or_else(String::new, |home| format!("-{}", home.uid()))
+    };
+    #[cfg(not(unix))]
+    let user = "";
+    std::env::temp_dir().join(format!("morphospace{user}"))
+}
+
+/// A folder for autosaves and the slot that this window has locked there, if any.
+#[derive(Debug)]
+struct AutosavePlace {
+    folder: PathBuf,
+    slot: Option<AutosaveSlot>,
+}
+
+/// State of autosave that is shown to the user.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+enum AutosaveStatus {
+    /// Autosaves are written to the first place.
+    #[default]
+    Working,
+    /// Autosaves are written to another place; contains the text of the notice.
+    Elsewhere(String),
+    /// Nothing can be autosaved; contains the reason.
+    Failing(String),
 }
 
 /// The autosave of this window, and those that other windows left behind.
 #[derive(Resource, Debug, Default)]
 pub struct Autosave {
-    /// Current slot of this window; `None` switches autosave off, as in tests.
-    slot: Option<AutosaveSlot>,
-    /// Slot with which this window started; `None` while it is still the current slot. After a
-    /// recovered project has been opened, the project's slot is the current one, and this one stays
-    /// locked because it is stored here.
-    initial_slot: Option<AutosaveSlot>,
+    /// Places in order of preference: each is used if those before it cannot be. Empty if autosave
+    /// is switched off, as in tests.
+    places: Vec<AutosavePlace>,
+    /// Slots that a recovered project's slot has replaced. They stay locked because they are stored
+    /// here.
+    former_slots: Vec<AutosaveSlot>,
     /// Slot of the project being recovered; it becomes the current slot once the project is open.
     opening_slot: Option<AutosaveSlot>,
     /// Autosaves left behind by windows that ended without saving.
     abandoned: Vec<AbandonedProject>,
-    /// The project written last, and the time of writing.
-    written: Option<(Project, Instant)>,
+    /// Damaged autosaves that were renamed and have not been reported.
+    set_aside: Vec<PathBuf>,
+    /// The project written last; `None` if writing it failed.
+    written: Option<Project>,
+    /// Time at which writing was last started.
+    started_at: Option<Instant>,
     /// Whether the open project differs from the autosave.
     is_behind: bool,
-    /// Whether the slot contains changes of the open project.
+    /// Whether the slots contain changes of the open project.
     slot_is_ours: bool,
-    /// Whether the changes in the slot have been saved or discarded, so that the slot can be
+    /// Whether the changes in the slots have been saved or discarded, so that the slots can be
     /// cleared.
     is_resolved: bool,
-    job: Option<BackgroundJob<(), io::Error>>,
-    /// Whether a failed autosave has been reported; later failures are not reported.
-    is_reported: bool,
+    job: Option<BackgroundJob<WrittenAutosave, Infallible>>,
+    status: AutosaveStatus,
+    /// Status that the notices show.
+    reported: AutosaveStatus,
 }
 
 impl Autosave {
-    /// Starts autosaving in a folder.
-    ///
-    /// # Errors
-    /// The folder cannot be created or written to.
-    pub fn start_in(folder: &Path) -> io::Result<Self> {
-        let (slot, abandoned) = AutosaveSlot::lock_free_slot(folder)?;
+    /// Starts autosaving in the first of these folders that can be used. Later folders are used if
+    /// earlier ones fail, and may contain autosaves to recover.
+    #[must_use]
+    pub fn start_in(folders: &[impl AsRef<Path>]) -> Self {
         let mut autosave = Self::default();
-        (autosave.slot, autosave.abandoned) = (Some(slot), abandoned);
-        Ok(autosave)
+        let mut reason = None;
+        for folder in folders.iter().map(AsRef::as_ref) {
+            let mut place = AutosavePlace {
+                folder: folder.to_owned(),
+                slot: None,
+            };
+            let is_needed = autosave.used_folder().is_none();
+            if is_needed || folder.exists() {
+                match AutosaveSlot::lock_free_slot(folder) {
+                    Ok(locked) => {
+                        place.slot = Some(locked.free);
+                        autosave.abandoned.extend(locked.abandoned);
+                        autosave.set_aside.extend(locked.set_aside);
+                    }
+                    Err(error) if is_needed => {
+                        reason.get_or_insert_with(|| problem(folder, &error));
+                    }
+                    Err(_) => {}
+                }
+            }
+            autosave.places.push(place);
+        }
+        let abandoned = &mut autosave.abandoned;
+        abandoned.sort_by_key(|abandoned| std::cmp::Reverse(abandoned.written_at));
+        let used = autosave.used_folder().map(Path::to_owned);
+        autosave.status = status(reason, used.as_deref());
+        autosave
+    }
+
+    /// The first folder in which this window has a slot.
+    fn used_folder(&self) -> Option<&Path> {
+        let mut places = self.places.iter();
+        let used = places.find(|place| place.slot.is_some());
+        used.map(|place| place.folder.as_path())
     }
 
     /// Scratch folder of this window for long-running exports.
     #[must_use]
     pub fn scratch_folder(&self) -> ScratchFolder {
-        ScratchFolder(self.slot.as_ref().map(AutosaveSlot::scratch_folder))
+        let mut slots = self.places.iter().filter_map(|place| place.slot.as_ref());
+        ScratchFolder(slots.next().map(AutosaveSlot::scratch_folder))
     }
 
     /// The newest autosave to recover: its title and, if known, its age.
@@ -92,17 +167,72 @@ impl Autosave {
 }
 
 impl Drop for Autosave {
-    /// Waits until the last autosave is written, then clears the slot if its changes have been
+    /// Waits until the last autosave is written, then clears the slots if their changes have been
     /// saved or discarded.
     fn drop(&mut self) {
         let started = Instant::now();
-        while self.job.is_some()
-            && BackgroundJob::take_result(&mut self.job).is_none()
-            && started.elapsed() < MIN_INTERVAL
-        {
+        self.take_result();
+        while self.job.is_some() && started.elapsed() < MIN_INTERVAL {
             std::thread::sleep(MIN_INTERVAL / 200);
+            self.take_result();
         }
         self.clear_if_resolved();
+    }
+}
+
+/// Reason why a folder or file cannot be used.
+fn problem(path: &Path, error: &io::Error) -> String {
+    let reason = write_error_reason(error);
+    format!("cannot write to {} ({reason})", path.display())
+}
+
+/// Status of autosave: `reason` says why the first place is not used, and `used` is the folder of
+/// the place that is.
+fn status(reason: Option<String>, used: Option<&Path>) -> AutosaveStatus {
+    match (reason, used) {
+        (None, _) => AutosaveStatus::Working,
+        (Some(reason), Some(used)) => AutosaveStatus::Elsewhere(format!(
+            "Autosave {reason}. Autosaves are stored in {} instead",
+            used.display()
+        )),
+        (Some(reason), None) => AutosaveStatus::Failing(reason),
+    }
+}
+
+/// Result of writing an autosave.
+#[derive(Debug, Default)]
+struct WrittenAutosave {
+    /// Index of the place that it was written to; `None` if all failed.
+    place: Option<usize>,
+    /// Slots that were locked there for the first time.
+    locked: Option<LockedSlots>,
+    /// Reason why the first place failed; `None` if it was written to.
+    reason: Option<String>,
+}
+
+impl WrittenAutosave {
+    /// Writes an autosave to the first place that can be written to. A place is given by its folder
+    /// and the path of the locked slot, if there is one.
+    fn write(unsaved: &UnsavedProject, places: &[(PathBuf, Option<PathBuf>)]) -> Self {
+        let mut result = Self::default();
+        for (index, (folder, path)) in places.iter().enumerate() {
+            let written = match path {
+                Some(path) => unsaved.write(path).map(|()| None),
+                None => AutosaveSlot::lock_free_slot(folder)
+                    .and_then(|locked| unsaved.write(&locked.free.path).map(|()| Some(locked))),
+            };
+            match written {
+                Ok(locked) => {
+                    (result.place, result.locked) = (Some(index), locked);
+                    break;
+                }
+                Err(error) => {
+                    let path = path.as_ref().unwrap_or(folder);
+                    result.reason.get_or_insert_with(|| problem(path, &error));
+                }
+            }
+        }
+        result
     }
 }
 
@@ -112,6 +242,7 @@ pub fn answer_recovery(
     mut autosave: ResMut<Autosave>,
     mut session: ResMut<Session>,
     question: Res<UnsavedQuestion>,
+    conflict: Res<ConflictQuestion>,
     mut notices: ResMut<Notices>,
 ) {
     for intent in intents.read() {
@@ -119,7 +250,9 @@ pub fn answer_recovery(
             Intent::AnswerRecovery(answer) => *answer,
             // If another question is open above the offer to recover, Esc closes only that
             // question.
-            Intent::Escape if question.text().is_none() => RecoveryAnswer::Later,
+            Intent::Escape if question.text().is_none() && !conflict.is_open => {
+                RecoveryAnswer::Later
+            }
             _ => continue,
         };
         if autosave.abandoned.is_empty() {
@@ -147,21 +280,14 @@ pub fn answer_recovery(
 pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices: ResMut<Notices>) {
     // No system reacts to changes of this resource, so none are reported.
     let autosave = autosave.bypass_change_detection();
-    autosave.take_over_recovered_slot(&session);
-    let Some(slot) = &autosave.slot else {
+    if autosave.places.is_empty() {
         return;
-    };
-    if let Some(Err(error)) = BackgroundJob::take_result(&mut autosave.job) {
-        // Writing is tried again later.
-        autosave.is_behind = session.is_dirty();
-        if !std::mem::replace(&mut autosave.is_reported, true) {
-            notices.problem(NoticeTopic::Saving, autosave_problem(&slot.path, &error));
-        }
     }
+    autosave.take_over_recovered_slot(&session);
+    autosave.take_result();
     if session.is_changed() {
-        let written = autosave.written.as_ref().map(|(project, _)| project);
         if session.is_dirty() {
-            autosave.is_behind = session.whole_project() != written;
+            autosave.is_behind = session.whole_project() != autosave.written.as_ref();
             (autosave.slot_is_ours, autosave.is_resolved) = (true, false);
         } else {
             autosave.is_behind = false;
@@ -169,20 +295,10 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
             autosave.is_resolved = autosave.slot_is_ours;
         }
     }
+    autosave.is_behind &= session.is_dirty();
     autosave.clear_if_resolved();
     autosave.write_if_due(&session);
-}
-
-/// Text of the notice about a failed autosave.
-fn autosave_problem(path: &Path, error: &JobError<io::Error>) -> String {
-    let reason = match error {
-        JobError::Failed(error) => write_error_reason(error),
-        panicked => panicked.to_string(),
-    };
-    format!(
-        "Cannot autosave to {} ({reason}). Save the project regularly",
-        path.display()
-    )
+    autosave.report(&mut notices);
 }
 
 impl Autosave {
@@ -194,8 +310,10 @@ impl Autosave {
             // It is still unknown whether the recovered project can be opened.
         } else if session.is_recovered() {
             if let Some(slot) = self.opening_slot.take() {
-                let previous = self.slot.replace(slot);
-                self.initial_slot = self.initial_slot.take().or(previous);
+                let mut places = self.places.iter_mut();
+                let place = places.find(|place| slot.path.starts_with(&place.folder));
+                let former = place.and_then(|place| place.slot.replace(slot));
+                self.former_slots.extend(former);
                 (self.slot_is_ours, self.is_resolved, self.written) = (true, false, None);
             }
         } else {
@@ -203,10 +321,66 @@ impl Autosave {
         }
     }
 
+    /// Takes the result of writing an autosave, if it is finished. After a failure, writing is
+    /// tried again later.
+    fn take_result(&mut self) {
+        let Some(result) = BackgroundJob::take_result(&mut self.job) else {
+            return;
+        };
+        let result = result.unwrap_or_else(|error| WrittenAutosave {
+            reason: Some(error.to_string()),
+            ..WrittenAutosave::default()
+        });
+        match result.place {
+            Some(written) => {
+                if let Some(locked) = result.locked {
+                    self.places[written].slot = Some(locked.free);
+                    self.set_aside.extend(locked.set_aside);
+                }
+                // Autosaves in other places are older.
+                let others = self.places.iter().enumerate();
+                let others = others.filter(|(index, _)| *index != written);
+                let slots = others.filter_map(|(_, place)| place.slot.as_ref());
+                slots.for_each(AutosaveSlot::clear);
+            }
+            None => (self.written, self.is_behind) = (None, true),
+        }
+        let used = result
+            .place
+            .map(|index| self.places[index].folder.as_path());
+        self.status = status(result.reason, used);
+    }
+
+    /// Shows a changed status, and the autosaves that were set aside.
+    fn report(&mut self, notices: &mut Notices) {
+        for path in self.set_aside.drain(..) {
+            let text = format!(
+                "An autosave is damaged and cannot be recovered. It was kept as {}",
+                path.display()
+            );
+            notices.problem(NoticeTopic::AutosaveFiles, text);
+        }
+        if self.status == self.reported {
+            return;
+        }
+        match &self.status {
+            AutosaveStatus::Working => notices.resolve(NoticeTopic::AutosaveFiles),
+            AutosaveStatus::Elsewhere(text) => notices.problem(NoticeTopic::AutosaveFiles, text),
+            AutosaveStatus::Failing(_) => {}
+        }
+        notices.resolve(NoticeTopic::Autosave);
+        if let AutosaveStatus::Failing(reason) = &self.status {
+            let text = format!("Changes are not autosaved: {reason}. Save the project regularly");
+            notices.problem(NoticeTopic::Autosave, text);
+        }
+        self.reported = self.status.clone();
+    }
+
     /// Deletes the autosave once its changes are saved or discarded and nothing is being written.
     fn clear_if_resolved(&mut self) {
         if self.is_resolved && self.job.is_none() {
-            self.slot.iter().for_each(AutosaveSlot::clear);
+            let slots = self.places.iter().filter_map(|place| place.slot.as_ref());
+            slots.for_each(AutosaveSlot::clear);
             (self.slot_is_ours, self.is_resolved, self.written) = (false, false, None);
         }
     }
@@ -214,20 +388,31 @@ impl Autosave {
     /// Starts writing an autosave if there are changes to write and the last autosave is older than
     /// `MIN_INTERVAL`.
     fn write_if_due(&mut self, session: &Session) {
-        let last = self.written.as_ref().map(|(_, when)| when.elapsed());
+        let last = self.started_at.map(|when| when.elapsed());
         let is_due = last.is_none_or(|last| last >= MIN_INTERVAL) && self.job.is_none();
         if !(self.is_behind && is_due) {
             return;
         }
-        let unsaved = session.unsaved_project().and_then(Result::ok);
-        let project = session.whole_project();
-        if let (Some(slot), Some(unsaved), Some(project)) = (&self.slot, unsaved, project) {
-            let path = slot.path.clone();
-            self.job = Some(BackgroundJob::start("the autosave", move |_| {
-                unsaved.write(&path)
-            }));
-            self.written = Some((project.clone(), Instant::now()));
+        self.started_at = Some(Instant::now());
+        for place in &mut self.places {
+            // A slot is lost with its folder, and locked anew in a new one.
+            place.slot.take_if(|_| !place.folder.is_dir());
         }
-        self.is_behind = false;
+        match session.unsaved_project() {
+            Some(Ok(unsaved)) => {
+                let path = |slot: &AutosaveSlot| slot.path.clone();
+                let places = self.places.iter();
+                let places =
+                    places.map(|place| (place.folder.clone(), place.slot.as_ref().map(path)));
+                let places: Vec<_> = places.collect();
+                self.job = Some(BackgroundJob::start("the autosave", move |_| {
+                    Ok(WrittenAutosave::write(&unsaved, &places))
+                }));
+                self.written = session.whole_project().cloned();
+                self.is_behind = false;
+            }
+            Some(Err(error)) => self.status = AutosaveStatus::Failing(error.to_string()),
+            None => self.is_behind = false,
+        }
     }
 }

@@ -12,6 +12,7 @@ use bevy::prelude::Resource;
 use image::{ImageFormat, RgbaImage};
 
 use crate::io::atomic_file::AtomicFile;
+use crate::io::read;
 
 /// Cached strips by project name. Failures are harmless: a missing strip is drawn again.
 #[derive(Resource, Clone, Debug, Default)]
@@ -69,7 +70,8 @@ impl GalleryStripCache {
             .filter_map(|folder| fs::read_dir(folder.version_folder()).ok());
         let strips = files.flatten().flatten().filter_map(|file| {
             let path = file.path();
-            let strip = image::open(&path).ok()?.into_rgba8();
+            let strip = image::load_from_memory(&read::read(&path).ok()?).ok()?;
+            let strip = strip.into_rgba8();
             let name = path.file_stem()?.to_str()?.to_owned();
             (strip.dimensions() == size).then_some((name, strip))
         });
@@ -155,6 +157,11 @@ mod tests {
         cache.store("small", &RgbaImage::new(1, 1))?;
         let version_folder = folder.path().join("0123456789abcdef");
         fs::write(version_folder.join("broken.png"), "not a picture")?;
+        // Opening a pipe would block for ever.
+        #[cfg(unix)]
+        std::process::Command::new("mkfifo")
+            .arg(version_folder.join("pipe.png"))
+            .status()?;
         assert!(cache.read(SIZE).is_empty());
         Ok(())
     }

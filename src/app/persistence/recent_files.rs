@@ -12,6 +12,7 @@ use crate::app::output_files::CaptureFolder;
 use crate::app::session::state::Session;
 use crate::design::DesignSource;
 use crate::io::atomic_file::AtomicFile;
+use crate::io::{path_text, read};
 
 /// Maximum number of entries (heuristic: as many as fit above the gallery).
 const MAX_ENTRIES: usize = 5;
@@ -21,6 +22,7 @@ const MAX_ENTRIES: usize = 5;
 pub struct RecentEntry {
     /// Path of one project file, or sources of designs opened together; a source may also be an
     /// element of a file, or text.
+    #[serde(with = "path_text::list")]
     pub files: Vec<PathBuf>,
 }
 
@@ -57,7 +59,11 @@ impl RecentEntry {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecentFiles {
     /// Folder of the last export.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        with = "path_text::option"
+    )]
     export_folder: Option<PathBuf>,
     #[serde(default)]
     opened: Vec<RecentEntry>,
@@ -73,8 +79,8 @@ impl RecentFiles {
 
     /// Reads the list; empty if the file is missing or invalid.
     fn read(path: &Path) -> Self {
-        let text = std::fs::read_to_string(path).unwrap_or_default();
-        toml::from_str(&text).unwrap_or_default()
+        let bytes = read::read(path).unwrap_or_default();
+        toml::from_slice(&bytes).unwrap_or_default()
     }
 
     /// Writes the list atomically.
@@ -274,5 +280,27 @@ mod tests {
         );
         std::fs::write(&path, "opened = 3").expect("a file");
         assert!(StoredRecentFiles::of_file(Some(path)).entries().is_empty());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn pipes_are_not_opened_and_any_path_is_stored() {
+        use std::os::unix::ffi::OsStrExt;
+        let folder = tempfile::tempdir().expect("a folder");
+        let pipe = folder.path().join("recent.toml");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.expect("mkfifo").success());
+        // Opening the pipe would block for ever.
+        assert!(StoredRecentFiles::of_file(Some(pipe)).entries().is_empty());
+        let file = folder.path().join(std::ffi::OsStr::from_bytes(b"\xe9.svg"));
+        std::fs::write(&file, "").expect("a file");
+        let path = folder.path().join("others.toml");
+        let mut stored = StoredRecentFiles::of_file(Some(path.clone()));
+        let entry = RecentEntry { files: vec![file] };
+        stored.set_export_folder(&entry.files[0]).expect("a file");
+        stored.add(entry.clone()).expect("a file");
+        let again = StoredRecentFiles::of_file(Some(path));
+        assert_eq!(again.entries(), std::slice::from_ref(&entry));
+        assert_eq!(again.export_folder(), Some(entry.files[0].as_path()));
     }
 }

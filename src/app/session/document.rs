@@ -485,6 +485,15 @@ impl OpenDocument {
         self.history.amend(before, self.snapshot());
     }
 
+    /// Whether another program or window has changed the project file since it was read or last
+    /// saved.
+    #[must_use]
+    pub fn is_changed_elsewhere(&self) -> bool {
+        let hash = self.loaded.file_hash;
+        self.path()
+            .is_some_and(|path| save::is_changed_elsewhere(path, hash))
+    }
+
     /// Saves the project to `path`, which becomes its file.
     ///
     /// # Errors

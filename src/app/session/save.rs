@@ -8,6 +8,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::app::output_files::{create_new, keep_if_written};
 use crate::design::DesignSource;
+use crate::io::read::{self, ReadError};
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 
 /// Reason why a project was not saved.
@@ -39,9 +40,22 @@ pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), SaveError> {
     // Works on a copy, so that a failed save leaves the open project unchanged.
     let project = with_relative_paths(loaded.project.clone(), loaded.folder.as_deref(), &folder)?;
     project.save_atomically(&path)?;
+    loaded.file_hash = Some(Project::file_hash(project.to_toml()?.as_bytes()));
     loaded.project = project;
     loaded.folder = Some(folder);
     Ok(())
+}
+
+/// Whether the project file `path` differs from the file with this hash. A missing file does not;
+/// a file that cannot be read does.
+#[must_use]
+pub fn is_changed_elsewhere(path: &Path, file_hash: Option<u64>) -> bool {
+    match read::read(path) {
+        Ok(bytes) => file_hash.is_some_and(|hash| hash != Project::file_hash(&bytes)),
+        // Saving reports that these are no files.
+        Err(ReadError::Missing | ReadError::Folder | ReadError::NotRegularFile) => false,
+        Err(ReadError::TooLarge | ReadError::Io(_)) => true,
+    }
 }
 
 /// Rewrites the paths of designs from folder `old` to `folder`. If `old` is `None`, the project is
@@ -78,7 +92,7 @@ fn write_bundled_design(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveEr
     };
     let bytes = gallery::bytes(bundled).ok_or_else(|| failed(io::ErrorKind::NotFound.into()))?;
     // If an equal file were not reused, each save would write the design again under a new name.
-    if std::fs::read(folder.join(bundled)).is_ok_and(|existing| existing == bytes) {
+    if read::read(&folder.join(bundled)).is_ok_and(|existing| existing == bytes) {
         return Ok(bundled.to_owned());
     }
     let text =

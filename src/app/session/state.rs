@@ -382,6 +382,14 @@ impl Session {
         format!("“{}” has unsaved changes.", self.title())
     }
 
+    /// Whether another program or window has changed the project file since it was read or last
+    /// saved. Reads the file.
+    #[must_use]
+    pub fn is_changed_elsewhere(&self) -> bool {
+        let open = self.open.as_ref();
+        open.is_some_and(OpenDocument::is_changed_elsewhere)
+    }
+
     /// Treats the current settings as saved.
     pub fn mark_saved(&mut self) {
         if let Some(open) = &mut self.open {

@@ -1,6 +1,5 @@
 //! Autosave data: a project with unsaved changes, written as JSON and recovered at the next start.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -9,6 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::app::session::origin::{ProjectOrigin, absolute};
 use crate::design::DesignSource;
 use crate::io::atomic_file::AtomicFile;
+use crate::io::path_text;
+use crate::io::read::{self, ReadError};
 use crate::project::{LoadedProject, Project, ProjectError};
 
 /// A project with unsaved changes.
@@ -17,6 +18,9 @@ pub struct UnsavedProject {
     /// Title of the project.
     pub title: String,
     origin: UnsavedOrigin,
+    /// Hash of the project file as it was read or last saved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    file_hash: Option<u64>,
     /// Text of the project file, with absolute paths to the designs; bundled designs keep their
     /// gallery names.
     document: String,
@@ -26,7 +30,7 @@ pub struct UnsavedProject {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 enum UnsavedOrigin {
     Gallery(String),
-    File(PathBuf),
+    File(#[serde(with = "path_text")] PathBuf),
     Unsaved,
 }
 
@@ -48,6 +52,7 @@ impl UnsavedProject {
         }
         Ok(Self {
             title,
+            file_hash: loaded.file_hash,
             origin: match origin {
                 ProjectOrigin::Gallery(name) => UnsavedOrigin::Gallery(name.clone()),
                 ProjectOrigin::File(path) => {
@@ -79,7 +84,9 @@ impl UnsavedProject {
             UnsavedOrigin::File(path) => Some(path.parent().unwrap_or(Path::new("")).to_owned()),
             UnsavedOrigin::Unsaved => Some(PathBuf::new()),
         };
-        LoadedProject::load(Project::parse(&self.document)?, folder)
+        let mut loaded = LoadedProject::load(Project::parse(&self.document)?, folder)?;
+        loaded.file_hash = self.file_hash;
+        Ok(loaded)
     }
 
     /// Writes the data to `path` atomically.
@@ -92,12 +99,16 @@ impl UnsavedProject {
         file.commit()
     }
 
-    /// Reads the data from `path`.
+    /// Reads the data from `path`; `None` if there is no file.
     ///
     /// # Errors
-    /// The file does not exist or was not written by this program.
-    pub fn read(path: &Path) -> io::Result<Self> {
-        Ok(serde_json::from_slice(&fs::read(path)?)?)
+    /// The file cannot be read or was not written by this program.
+    pub fn read(path: &Path) -> io::Result<Option<Self>> {
+        match read::read(path) {
+            Ok(bytes) => Ok(Some(serde_json::from_slice(&bytes)?)),
+            Err(ReadError::Missing) => Ok(None),
+            Err(error) => Err(io::Error::other(error)),
+        }
     }
 }
 
@@ -105,6 +116,7 @@ impl UnsavedProject {
 mod tests {
     use super::*;
     use crate::project::gallery;
+    use std::fs;
 
     #[test]
     fn written_data_is_read_back() -> Result<(), Box<dyn std::error::Error>> {
@@ -116,7 +128,7 @@ mod tests {
         let origin = ProjectOrigin::Gallery(name);
         let unsaved = UnsavedProject::new("changed".to_owned(), &origin, &loaded)?;
         unsaved.write(&path)?;
-        let again = UnsavedProject::read(&path)?;
+        let again = UnsavedProject::read(&path)?.ok_or("no file")?;
         assert_eq!((&again, again.origin()), (&unsaved, origin));
         assert_eq!(again.load()?.project, loaded.project);
         fs::write(&path, "nothing of ours")?;

@@ -12,6 +12,7 @@ use crate::app::capture::estimate::ExportEstimate;
 use crate::app::capture::film_exporter::FilmExporter;
 use crate::app::capture::film_framing::FilmFraming;
 use crate::app::compare::comparison::Comparison;
+use crate::app::conflict_question::ConflictQuestion;
 use crate::app::editing::editor::MatchEditor;
 use crate::app::editing::sheet::MatchSheet;
 use crate::app::files::drop::{DropSupport, DroppedDesign};
@@ -69,6 +70,7 @@ pub struct UiState<'w> {
     pub presets: Res<'w, StoredPresets>,
     pub recent: Res<'w, StoredRecentFiles>,
     pub question: Res<'w, UnsavedQuestion>,
+    pub conflict: Res<'w, ConflictQuestion>,
     pub dialog: Res<'w, FileDialogRequest>,
     pub dropped_design: Res<'w, DroppedDesign>,
     pub preview: Res<'w, FilePreview>,

@@ -1,4 +1,21 @@
-//! Text of labels: capitalises the first letter.
+//! Text of labels: capitalises the first letter, and shortens text that contains names from files.
+
+/// Maximum number of characters of a sentence with a name in it (resource limit: twice the longest
+/// sentence of a dialog without its name).
+const MAX_CHARS: usize = 300;
+
+/// Returns the text without its middle if it is too long for a dialog. A third of the result comes
+/// from the end, because most sentences name a thing first and then say what happened to it.
+pub fn shortened(text: &str) -> String {
+    let count = text.chars().count();
+    if count <= MAX_CHARS {
+        return text.to_owned();
+    }
+    let tail_count = MAX_CHARS / 3;
+    let head = text.chars().take(MAX_CHARS - tail_count - 1);
+    let tail = text.chars().skip(count - tail_count);
+    head.chain(['…']).chain(tail).collect()
+}
 
 /// Returns the text with its first letter in upper case.
 pub fn capitalised(text: &str) -> String {

@@ -128,8 +128,9 @@ fn message(ui: &mut Ui, notice: &Notice, exceeds_limits: bool, width: f32, inten
                     }
                 }
             });
-            let close = icon_button(ui, icons::CLOSE, "Close", vec2(24.0, 24.0));
-            if close.clicked() {
+            if notice.kind.is_dismissible()
+                && icon_button(ui, icons::CLOSE, "Close", vec2(24.0, 24.0)).clicked()
+            {
                 intents.push(Intent::DismissNotice(notice.id));
             }
         });

@@ -1,23 +1,32 @@
 //! Modal questions to the user: whether to save unsaved changes or stop an export, whether to
-//! recover unsaved work, and where a single opened or dropped design goes.
+//! recover unsaved work, what to do with a project file that was changed elsewhere, and where a
+//! single opened or dropped design goes.
 
 use std::path::Path;
 use std::time::Duration;
 
-use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Rect, Ui};
+use bevy_egui::egui::text::LayoutJob;
+use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Rect, Response, TextStyle, Ui};
 
-use crate::app::input::intent::{Intent, RecoveryAnswer, UnsavedAnswer};
+use crate::app::input::intent::{ConflictAnswer, Intent, RecoveryAnswer, UnsavedAnswer};
+use crate::app::ui::kit::text::shortened;
 use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::kit::widgets::primary_button;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::app::unsaved_question::UnsavedKind;
 use crate::design::DesignSource;
+use crate::io::sanitize::SanitizedLine;
 use crate::project::Project;
+
+/// Maximum number of rows of a question's text (resource limit: with its heading and buttons the
+/// question must fit into the smallest window; 300 characters of usual scripts take fewer rows).
+const MAX_ROWS: usize = 12;
 
 /// Draws the question that waits for an answer, if there is one; returns its rectangle.
 pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) -> Option<Rect> {
-    let question = if let (Some(words), Some(kind)) = (state.question.text(), state.question.kind())
-    {
+    let question = if state.conflict.is_open {
+        ask_conflict(ctx, &state.session.title(), intents)
+    } else if let (Some(words), Some(kind)) = (state.question.text(), state.question.kind()) {
         ask_before_closing(ctx, kind, words, intents)
     } else if let Some((title, age)) = state.autosave.recoverable() {
         ask_recover(ctx, title, age, intents)
@@ -38,6 +47,21 @@ fn dialog(ctx: &Context, name: &str, width: f32, content: impl FnOnce(&mut Ui)) 
     shown.response.rect
 }
 
+/// Draws the text of a question. Its names come from files and may be of any length and script, so
+/// it is shortened; the whole text appears on hover.
+fn sentence(ui: &mut Ui, text: &str) {
+    let whole = SanitizedLine(text).to_string();
+    let short = shortened(&whole);
+    let font = TextStyle::Body.resolve(ui.style());
+    let colour = ui.visuals().text_color();
+    let mut job = LayoutJob::simple(short.clone(), font, colour, ui.available_width());
+    job.wrap.max_rows = MAX_ROWS;
+    let label = ui.add(Label::new(job).wrap());
+    if short != whole {
+        label.on_hover_text(whole);
+    }
+}
+
 /// Returns the heading of the question, the label of the button that keeps the work, and the label
 /// of the button that discards it.
 fn labels(kind: UnsavedKind) -> [&'static str; 3] {
@@ -56,7 +80,7 @@ fn ask_before_closing(
     let [heading, keep, discard] = labels(kind);
     dialog(ctx, "unsaved changes", 400.0, |ui| {
         ui.heading(heading);
-        ui.add(Label::new(question).wrap());
+        sentence(ui, question);
         answers(ui, |ui| {
             if primary_button(ui, keep).clicked() {
                 intents.push(Intent::AnswerUnsaved(UnsavedAnswer::Save));
@@ -72,6 +96,33 @@ fn ask_before_closing(
     })
 }
 
+/// Asks what to do with a project file that was changed elsewhere.
+fn ask_conflict(ctx: &Context, title: &str, intents: &mut Intents) -> Rect {
+    dialog(ctx, "conflict", 440.0, |ui| {
+        ui.heading("The file has changed");
+        let text = format!(
+            "Another program or window has changed the file of “{title}” since it was opened or \
+             last saved here."
+        );
+        sentence(ui, &text);
+        answers(ui, |ui| {
+            let mut answer = |button: Response, tip: &str, answer: ConflictAnswer| {
+                if button.on_hover_text(tip).clicked() {
+                    intents.push(Intent::AnswerConflict(answer));
+                }
+            };
+            let tip = "Saves your version in another file.";
+            answer(primary_button(ui, "Save as …"), tip, ConflictAnswer::SaveAs);
+            let tip = "Replaces the file by your version.";
+            answer(ui.button("Keep mine"), tip, ConflictAnswer::KeepMine);
+            let tip = "Discards your changes and opens the file.";
+            answer(ui.button("Take theirs"), tip, ConflictAnswer::TakeTheirs);
+            let tip = "Does not save (Esc).";
+            answer(ui.button("Cancel"), tip, ConflictAnswer::Cancel);
+        });
+    })
+}
+
 /// Asks whether to recover unsaved work after the program ended unexpectedly. `age` is the time
 /// since the work was stored.
 fn ask_recover(ctx: &Context, title: &str, age: Option<Duration>, intents: &mut Intents) -> Rect {
@@ -82,7 +133,7 @@ fn ask_recover(ctx: &Context, title: &str, age: Option<Duration>, intents: &mut 
             "Morphospace closed before changes to “{title}” were saved{when}. They can be \
              recovered."
         );
-        ui.add(Label::new(text).wrap());
+        sentence(ui, &text);
         answers(ui, |ui| {
             if primary_button(ui, "Recover").clicked() {
                 intents.push(Intent::AnswerRecovery(RecoveryAnswer::Restore));
@@ -132,7 +183,7 @@ fn ask_drop(ctx: &Context, state: &UiState, path: &Path, intents: &mut Intents) 
             "A film leads from one design to another. Choose the second design for a new film \
              that starts with “{name}”{open_film}."
         );
-        ui.add(Label::new(text).wrap());
+        sentence(ui, &text);
         answers(ui, |ui| {
             if primary_button(ui, "Choose second …").clicked() {
                 intents.push(Intent::AskSecond(path.to_owned()));
@@ -176,4 +227,58 @@ fn use_in_film(
 fn answers(ui: &mut Ui, buttons: impl FnOnce(&mut Ui)) {
     ui.add_space(GRID);
     ui.with_layout(Layout::right_to_left(Align::Center), buttons);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevy_egui::egui::{Pos2, RawInput, vec2};
+
+    /// Rectangle of a dialog in a small window.
+    fn drawn(window: Rect, draw: impl Fn(&Context) -> Rect) -> Rect {
+        let ctx = Context::default();
+        let input = RawInput {
+            screen_rect: Some(window),
+            ..RawInput::default()
+        };
+        let mut rect = Rect::NOTHING;
+        // The size of the dialog is known from the second pass on.
+        for _ in 0..3 {
+            let output = ctx.run_ui(input.clone(), |ui| rect = draw(ui.ctx()));
+            output.drop_without_applying_deltas();
+        }
+        rect
+    }
+
+    #[test]
+    fn buttons_stay_in_the_window_for_any_title() {
+        let window = Rect::from_min_size(Pos2::ZERO, vec2(800.0, 600.0));
+        for title in [
+            "x".repeat(10_000),
+            "word ".repeat(2_000),
+            "字".repeat(10_000),
+            "\u{fdfd}".repeat(10_000),
+            "a\n".repeat(5_000),
+            "/folder".repeat(1_500),
+        ] {
+            let text = format!("“{title}” has unsaved changes.");
+            let dialogs: [&dyn Fn(&Context) -> Rect; 3] = [
+                &|ctx| ask_before_closing(ctx, UnsavedKind::Changes, &text, &mut Vec::new()),
+                &|ctx| ask_recover(ctx, &title, Some(Duration::ZERO), &mut Vec::new()),
+                &|ctx| ask_conflict(ctx, &title, &mut Vec::new()),
+            ];
+            for dialog in dialogs {
+                let rect = drawn(window, dialog);
+                assert!(rect.is_positive() && window.contains_rect(rect), "{rect:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_shortened_question_keeps_its_start_and_end() {
+        let text = format!("“{}” has unsaved changes.", "字".repeat(10_000));
+        let short = shortened(&SanitizedLine(text).to_string());
+        assert!(short.starts_with("“字") && short.ends_with("字” has unsaved changes."));
+        assert_eq!(short.chars().count(), 300);
+    }
 }
