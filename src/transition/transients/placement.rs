@@ -99,8 +99,7 @@ pub(in crate::transition) fn placed(
         BuildQuality::Draft => 0,
         BuildQuality::Best => MAX_EXAMINED,
     };
-    let mut lives = lives(matched);
-    if lives.iter().all(Option::is_none) {
+    if lives(matched).iter().all(Option::is_none) {
         return Ok(None);
     }
     let specks = TransientPart::all(matched, levels);
@@ -126,6 +125,18 @@ pub(in crate::transition) fn placed(
         );
     }
     let is_limited = quality == BuildQuality::Best && scene.examined_vertices() >= max_examined;
+    Ok(with_placements(matched, film, &scene, is_limited))
+}
+
+/// Moves all placed parts of a scene to their positions; `None` if rounding folds a face of the
+/// moved mesh.
+fn with_placements(
+    matched: &RegionMatch,
+    film: &Arap,
+    scene: &TransientScene,
+    is_limited: bool,
+) -> Option<PlacedTransients> {
+    let mut lives = lives(matched);
     let mut swelling = Vec::new();
     let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
     for (speck, birth) in scene.births() {
@@ -133,9 +144,7 @@ pub(in crate::transition) fn placed(
         lives[speck.piece] = Some(birth.life);
         swelling.extend(birth.swells.then_some(speck.piece));
     }
-    let Some(mesh) = film.mesh().with_parts_translated(&by) else {
-        return Ok(None);
-    };
+    let mesh = film.mesh().with_parts_translated(&by)?;
     let mut matched = matched.clone();
     for (piece, by) in matched.pieces.iter_mut().zip(&by) {
         for ring in &mut piece.rings {
@@ -143,11 +152,11 @@ pub(in crate::transition) fn placed(
             ring.target.iter_mut().for_each(|p| *p += by[1]);
         }
     }
-    Ok(Some(PlacedTransients {
+    Some(PlacedTransients {
         matched,
         mesh,
         lives,
         swelling,
         is_limited,
-    }))
+    })
 }
