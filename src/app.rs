@@ -68,7 +68,6 @@ pub mod testing {
     pub use super::analysis::suggestions::{SuggestedChange, Suggestion, Suggestions};
     pub use super::capture::film_exporter::FilmExporter;
     pub use super::compare::comparison::{Comparison, OnComparison};
-    pub use super::conflict_question::ConflictQuestion;
     pub use super::editing::editor::{CutEnd, EditorGrab, EditorHandle, MatchEditor};
     pub use super::editing::panes::{EditorPanes, PaneView};
     pub use super::editing::sheet::{MatchSheet, PieceFate};
@@ -97,6 +96,7 @@ pub mod testing {
     pub use super::presentation::presenter::Presentation;
     pub use super::redraw_pace::{PanelRepaint, RedrawPace};
     pub use super::session::save::SaveError;
+    pub use super::session::save_conflict::ConflictQuestion;
     pub use super::session::state::{MethodUnavailable, Session};
     pub use super::session::transition_problem::TransitionProblem;
     pub use super::stage_area::{AutoFit, StageArea};

@@ -1,20 +1,14 @@
 //! Asks before saving over a project file that another program or window has changed since it was
 //! read or last saved.
 
-use bevy::prelude::{Commands, MessageReader, ResMut, Resource};
+use bevy::prelude::{Commands, MessageReader, ResMut};
 
 use crate::app::input::intent::{ConflictAnswer, Intent};
 use crate::app::notices::Notices;
 use crate::app::session::load::LoadRequest;
+use crate::app::session::save_conflict::ConflictQuestion;
 use crate::app::session::state::Session;
 use crate::app::unsaved_question::{UnsavedKind, UnsavedQuestion};
-
-/// The question what to do with a project file that was changed elsewhere.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ConflictQuestion {
-    /// Whether the question waits for an answer.
-    pub is_open: bool,
-}
 
 /// Applies the answers that do not save the project; the system that saves applies
 /// [`ConflictAnswer::KeepMine`].

@@ -3,12 +3,12 @@
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::Res;
 
-use crate::app::conflict_question::ConflictQuestion;
 use crate::app::files::drop::DroppedDesign;
 use crate::app::persistence::autosave::Autosave;
+use crate::app::session::save_conflict::ConflictQuestion;
 use crate::app::unsaved_question::UnsavedQuestion;
 
-/// The questions that may be open: whether to save, what to do with a file that was changed
+/// The questions that may be open: whether to save, whether to replace a file that was changed
 /// elsewhere, where to put a dropped design, and whether to recover unsaved work.
 #[derive(SystemParam)]
 pub struct OpenQuestions<'w> {

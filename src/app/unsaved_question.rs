@@ -9,9 +9,9 @@ use bevy::prelude::{
 use bevy::window::{PrimaryWindow, Window, WindowCloseRequested};
 
 use crate::app::capture::film_exporter::FilmExporter;
-use crate::app::conflict_question::ConflictQuestion;
 use crate::app::input::intent::{Intent, UnsavedAnswer};
 use crate::app::notices::{NoticeTopic, Notices};
+use crate::app::session::save_conflict::ConflictQuestion;
 use crate::app::session::state::Session;
 
 /// Kind of work that would be lost.

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource};
 use bevy::window::FileDragAndDrop;
 
-use crate::app::conflict_question::ConflictQuestion;
 use crate::app::input::intent::Intent;
 use crate::app::persistence::autosave::Autosave;
 use crate::app::presentation::presenter::Presentation;
+use crate::app::session::save_conflict::ConflictQuestion;
 use crate::app::unsaved_question::UnsavedQuestion;
 
 /// A single dropped or opened design, while the user is asked for the second design of its film, or

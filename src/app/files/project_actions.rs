@@ -10,7 +10,6 @@ use bevy::prelude::{
     Commands, DetectChanges, DetectChangesMut, Local, MessageReader, Res, ResMut, Resource,
 };
 
-use crate::app::conflict_question::ConflictQuestion;
 use crate::app::editing::editor::MatchEditor;
 use crate::app::files::drop::DroppedDesign;
 use crate::app::files::invitation::START_PROJECT;
@@ -22,6 +21,7 @@ use crate::app::presentation::presenter::Presentation;
 use crate::app::session::load::LoadRequest;
 use crate::app::session::origin::absolute;
 use crate::app::session::save::SaveError;
+use crate::app::session::save_conflict::ConflictQuestion;
 use crate::app::session::state::{Session, WorkOutcome};
 use crate::app::session::transition_problem::TransitionProblem;
 use crate::app::stage_area::AutoFit;

@@ -11,13 +11,13 @@ use std::time::{Duration, Instant, SystemTime};
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
-use crate::app::conflict_question::ConflictQuestion;
 use crate::app::input::intent::{Intent, RecoveryAnswer};
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::output_files::ScratchFolder;
 use crate::app::persistence::autosave_slot::{AbandonedProject, AutosaveSlot, LockedSlots};
 use crate::app::session::load::LoadRequest;
+use crate::app::session::save_conflict::ConflictQuestion;
 use crate::app::session::state::Session;
 use crate::app::session::unsaved_project::UnsavedProject;
 use crate::app::unsaved_question::UnsavedQuestion;

@@ -1,7 +1,7 @@
 //! Bisection of a time interval by the two proofs: that no face folds, and that no outlines meet.
 //!
-//! Guaranteed: a bisection ends. Both the depth and the number of parts are bounded; what is
-//! undecided then counts as not proved. Threads share the earliest failure, so that no thread
+//! Guaranteed: a bisection ends. Both the depth and the number of parts are bounded; parts that are
+//! undecided then count as not proved. Threads share the earliest failure, so that no thread
 //! examines later times.
 
 use std::cell::Cell;

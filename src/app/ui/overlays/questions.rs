@@ -1,5 +1,5 @@
 //! Modal questions to the user: whether to save unsaved changes or stop an export, whether to
-//! recover unsaved work, what to do with a project file that was changed elsewhere, and where a
+//! recover unsaved work, whether to replace a project file that was changed elsewhere, and where a
 //! single opened or dropped design goes.
 
 use std::path::Path;
