@@ -1,10 +1,10 @@
-//! Tests how the program's time and memory grow with the size n of its input.
+//! Tests how the program's time and memory grow with the size n of its input, at the best quality.
 //!
-//! n is the number of holes, of separate polygons, of nested rings, of pieces into which a star
-//! cuts itself, or a fifth of the number of bars. The time grows at most as n² log n, and the
-//! memory stays below 1 GiB.
-//! `cargo test --release --test asymptotics` tests all families of inputs; without `--release` only
-//! the quick ones.
+//! n is the number of holes, of separate polygons, of nested rings, of dashes, of letters or of
+//! pieces into which a star cuts itself, a fifth of the number of bars, or a tenth of the number of
+//! points of an outline. The time grows at most as n² log n, and the memory stays below 1 GiB.
+//! With `--release`, sizes are larger. `cargo test --release --test asymptotics -- --nocapture
+//! --test-threads 1` prints the measured times.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -69,7 +69,18 @@ fn cost_so_far(process: u32) -> Option<RunCost> {
 }
 
 /// Values of n, the size of the inputs; each is twice the previous one.
-const SIZES: [u32; 4] = [10, 20, 40, 80];
+const SIZES: &[u32] = match cfg!(debug_assertions) {
+    true => &[10, 20, 40],
+    false => &[10, 20, 40, 80],
+};
+
+/// A design of one family of inputs.
+enum FamilyDesign {
+    /// Name and content of its file.
+    File(&'static str, String),
+    /// Text to be drawn.
+    Letters(String),
+}
 
 /// Factor by which the growth of the time may exceed that of n² log n (tolerance: timing noise).
 const SLACK: f64 = 5.0;
@@ -78,25 +89,37 @@ const SLACK: f64 = 5.0;
 /// (tolerance: shorter times mostly consist of the start of the program).
 const MIN_SECONDS: f64 = 0.25;
 
-/// Asserts that time and memory for a transition from `design(n)` to a square grow slowly with n.
-fn assert_slow_growth(name: &str, design: impl Fn(u32) -> String) {
+/// Asserts that time and memory for a transition from `design(n)` to a square grow slowly with n,
+/// and prints them.
+fn assert_slow_growth(name: &str, design: impl Fn(u32) -> FamilyDesign) {
     let folder = tempfile::tempdir().expect("a folder");
     let write =
         |name: &str, text: String| fs::write(folder.path().join(name), text).expect("written");
     write("square.json", "[[0,0],[4,0],[4,4],[0,4]]".to_owned());
-    let costs = SIZES.map(|n| {
-        write("a.json", design(n));
+    let cost = |&n: &u32| {
+        let source = match design(n) {
+            FamilyDesign::File(name, text) => {
+                write(name, text);
+                name.to_owned()
+            }
+            FamilyDesign::Letters(letters) => format!("glyph:{letters}"),
+        };
         run_cost(
             folder.path(),
-            "render a.json square.json --at 0.5 --out half.svg",
+            &format!("render {source} square.json --at 0.5 --out half.svg"),
         )
-    });
+    };
+    let costs: Vec<RunCost> = SIZES.iter().map(cost).collect();
+    let seconds: Vec<f64> = costs.iter().map(|cost| cost.cpu_seconds).collect();
+    let last = SIZES.len() - 1;
+    let exponent = (seconds[last] / seconds[last - 1]).log2();
+    println!("{name}: {seconds:.2?} s for n = {SIZES:?}, exponent {exponent:.1}");
     let work = |n: u32| f64::from(n).powi(2) * f64::from(n).ln();
-    for (small, large) in [(1, 3), (0, 2), (2, 3)] {
+    for (small, large) in (0..last).map(|small| (small, last)) {
         let expected_factor = work(SIZES[large]) / work(SIZES[small]);
-        let allowed = SLACK * expected_factor * costs[small].cpu_seconds.max(MIN_SECONDS);
+        let allowed = SLACK * expected_factor * seconds[small].max(MIN_SECONDS);
         assert!(
-            costs[large].cpu_seconds < allowed,
+            seconds[large] < allowed,
             "{name} of {}: {costs:?}",
             SIZES[large]
         );
@@ -107,10 +130,18 @@ fn assert_slow_growth(name: &str, design: impl Fn(u32) -> String) {
     );
 }
 
-/// JSON text of a polygon file with these rings.
-fn polygons(rings: impl Iterator<Item = Vec<DVec2>>) -> String {
+/// A polygon file with these rings.
+fn polygons(rings: impl Iterator<Item = Vec<DVec2>>) -> FamilyDesign {
     let ring = |ring: Vec<DVec2>| ring.iter().map(|p| p.to_array()).collect::<Vec<_>>();
-    serde_json::to_string(&rings.map(ring).collect::<Vec<_>>()).expect("numbers")
+    let text = serde_json::to_string(&rings.map(ring).collect::<Vec<_>>()).expect("numbers");
+    FamilyDesign::File("a.json", text)
+}
+
+/// A polygon file with one ring around the origin, of `points` points in equal directions at the
+/// distances that `radius` returns for their index.
+fn closed_curve(points: u32, radius: impl Fn(u32) -> f64) -> FamilyDesign {
+    let point = |k: u32| radius(k) * DVec2::from_angle(TAU * f64::from(k) / f64::from(points));
+    polygons(std::iter::once((0..points).map(point).collect()))
 }
 
 /// Corners of a regular polygon with `points` corners.
@@ -126,7 +157,6 @@ fn grid_positions(count: u32) -> impl Iterator<Item = DVec2> {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_holes_grows_at_most_quadratically() {
     assert_slow_growth("holes", |n| {
         let sheet = [(0.0, 0.0), (10.0, 0.0), (10.0, 8.0), (0.0, 8.0)].map(DVec2::from);
@@ -136,7 +166,6 @@ fn time_for_holes_grows_at_most_quadratically() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_pieces_grows_at_most_quadratically() {
     assert_slow_growth("pieces", |n| {
         polygons(grid_positions(n).map(|p| regular_polygon(p, 0.3, 6)))
@@ -144,7 +173,6 @@ fn time_for_pieces_grows_at_most_quadratically() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_nested_rings_grows_at_most_quadratically() {
     assert_slow_growth("nested", |n| {
         polygons((1..=n).map(|k| regular_polygon(DVec2::ZERO, f64::from(k), 6)))
@@ -167,6 +195,60 @@ fn time_for_bars_grows_at_most_quadratically() {
     assert_slow_growth("bars", |n| {
         let nodes: Vec<_> = (0..=5 * n).map(|k| [k, k % 2]).collect();
         let bars: Vec<_> = (0..5 * n).map(|k| [k, k + 1]).collect();
-        serde_json::json!({ "nodes": nodes, "bars": bars }).to_string()
+        let truss = serde_json::json!({ "nodes": nodes, "bars": bars });
+        FamilyDesign::File("truss.json", truss.to_string())
+    });
+}
+
+#[test]
+fn time_for_dashes_grows_at_most_quadratically() {
+    assert_slow_growth("dashes", |n| {
+        let dash = TAU * 40.0 / (2.0 * f64::from(n));
+        let circle = format!(
+            "<circle cx='50' cy='50' r='40' fill='none' stroke='black' stroke-width='2' \
+             stroke-dasharray='{dash}'/>"
+        );
+        let svg =
+            format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>{circle}</svg>");
+        FamilyDesign::File("a.svg", svg)
+    });
+}
+
+#[test]
+fn time_for_letters_grows_at_most_quadratically() {
+    assert_slow_growth("letters", |n| {
+        let letters = ('A'..='Z').cycle().take(n as usize);
+        FamilyDesign::Letters(letters.collect())
+    });
+}
+
+#[test]
+fn time_for_noisy_outlines_grows_at_most_quadratically_in_their_points() {
+    assert_slow_growth("noisy outline", |n| {
+        // Digits of the golden ratio's multiples are spread evenly without a pattern.
+        closed_curve(10 * n, |k| 8.0 + (f64::from(k * k) * 0.618_034).fract())
+    });
+}
+
+#[test]
+fn time_for_combs_grows_at_most_quadratically_in_their_points() {
+    assert_slow_growth("comb", |n| {
+        let tooth = |k: u32| {
+            [(0.0, 60.0), (0.5, 60.0), (0.5, 10.0), (1.0, 10.0)]
+                .map(|(x, y)| DVec2::new(f64::from(k) + x, y))
+        };
+        let teeth = 5 * n / 2;
+        let ends = [DVec2::new(f64::from(teeth), 0.0), DVec2::ZERO];
+        polygons(std::iter::once(
+            (0..teeth).flat_map(tooth).chain(ends).collect(),
+        ))
+    });
+}
+
+#[test]
+fn time_for_smooth_outlines_grows_at_most_quadratically_in_their_points() {
+    assert_slow_growth("smooth outline", |n| {
+        let lobes = TAU * 5.0 / f64::from(10 * n);
+        closed_curve(10 * n, |k| 8.0 + 2.0 * (lobes * f64::from(k)).sin())
     });
 }
