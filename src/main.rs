@@ -7,13 +7,6 @@ use std::process::ExitCode;
 use morphospace::cli;
 use morphospace::cli::LaunchOutcome;
 
-/// Allocator of the program with the window. Each recording runs on threads of its own. The C
-/// library's allocator keeps the memory that such threads have freed; this one returns it to the
-/// system.
-#[cfg(feature = "app")]
-#[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
-
 fn main() -> ExitCode {
     match cli::run(std::env::args_os()) {
         LaunchOutcome::Done(code) => code,
