@@ -6,6 +6,8 @@
 //! With `--release`, sizes are larger. `cargo test --release --test asymptotics -- --nocapture
 //! --test-threads 1` prints the measured times.
 
+#![expect(clippy::print_stdout, reason = "measured times are printed")]
+
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
