@@ -159,6 +159,7 @@ fn grid_positions(count: u32) -> impl Iterator<Item = DVec2> {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_holes_grows_at_most_quadratically() {
     assert_slow_growth("holes", |n| {
         let sheet = [(0.0, 0.0), (10.0, 0.0), (10.0, 8.0), (0.0, 8.0)].map(DVec2::from);
@@ -168,6 +169,7 @@ fn time_for_holes_grows_at_most_quadratically() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_pieces_grows_at_most_quadratically() {
     assert_slow_growth("pieces", |n| {
         polygons(grid_positions(n).map(|p| regular_polygon(p, 0.3, 6)))
@@ -175,6 +177,7 @@ fn time_for_pieces_grows_at_most_quadratically() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_nested_rings_grows_at_most_quadratically() {
     assert_slow_growth("nested", |n| {
         polygons((1..=n).map(|k| regular_polygon(DVec2::ZERO, f64::from(k), 6)))
@@ -203,6 +206,7 @@ fn time_for_bars_grows_at_most_quadratically() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_dashes_grows_at_most_quadratically() {
     assert_slow_growth("dashes", |n| {
         let dash = TAU * 40.0 / (2.0 * f64::from(n));
@@ -217,6 +221,7 @@ fn time_for_dashes_grows_at_most_quadratically() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_letters_grows_at_most_quadratically() {
     assert_slow_growth("letters", |n| {
         let letters = ('A'..='Z').cycle().take(n as usize);
@@ -225,6 +230,7 @@ fn time_for_letters_grows_at_most_quadratically() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_noisy_outlines_grows_at_most_quadratically_in_their_points() {
     assert_slow_growth("noisy outline", |n| {
         // Digits of the golden ratio's multiples are spread evenly without a pattern.
@@ -233,6 +239,7 @@ fn time_for_noisy_outlines_grows_at_most_quadratically_in_their_points() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_combs_grows_at_most_quadratically_in_their_points() {
     assert_slow_growth("comb", |n| {
         let tooth = |k: u32| {
@@ -248,6 +255,7 @@ fn time_for_combs_grows_at_most_quadratically_in_their_points() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_smooth_outlines_grows_at_most_quadratically_in_their_points() {
     assert_slow_growth("smooth outline", |n| {
         let lobes = TAU * 5.0 / f64::from(10 * n);
