@@ -66,9 +66,12 @@ pub(super) fn smallest(
         moved.fill(DVec2::ZERO);
         for (row, by) in among.iter().zip(lambda).filter(|(_, by)| *by != 0.0) {
             for &(vertex, direction) in &row.terms {
-                let response = yielding.response(vertex).unwrap_or_default();
-                let all = moved.iter_mut().zip(response);
-                all.for_each(|(moved, share)| *moved += direction * (by * *share));
+                let Some(response) = yielding.response(vertex) else {
+                    continue;
+                };
+                for (&v, share) in response.vertices.iter().zip(response.shares) {
+                    moved[v as usize] += direction * (by * share);
+                }
             }
         }
     }
@@ -88,7 +91,7 @@ fn products(rows: &[&ContactConstraint], yielding: &MeshCompliance) -> Vec<f64> 
             for (j, other) in rows.iter().enumerate() {
                 let terms = other.terms.iter();
                 a[i * n + j] += terms
-                    .map(|&(v, along)| direction.dot(along) * response[v as usize])
+                    .map(|&(v, along)| direction.dot(along) * yielding.share(&response, vertex, v))
                     .sum::<f64>();
             }
         }

@@ -12,7 +12,6 @@ use super::push::{ContactConstraint, smallest};
 use crate::geometry::{DVec2, twice_signed_area};
 use crate::warp::{Arap, Placer, Warp};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
-use std::collections::BTreeMap;
 
 /// Maximum number of times that the displacements at one time t are computed (resource limit). They
 /// are computed again because the constraints on face areas are linearised, and because the
@@ -30,6 +29,11 @@ const FACE: f64 = 0.125;
 /// Largest permitted displacement of a vertex, as a fraction of the mesh diameter. If it is
 /// exceeded, [`through`] returns `None` (heuristic).
 const FARTHEST: f64 = 0.25;
+
+/// Maximum number of pairs of a vertex and an edge that are close to each other in a step, above
+/// which [`through`] returns `None` (resource limit: more take longer than 0.1 s and mean that many
+/// parts overlap).
+const MOST_LINES: usize = 200_000;
 
 /// Times from 0 to 1, each with the displacements of all vertices.
 pub(super) type GuardDisplacements = Vec<(f64, Vec<DVec2>)>;
@@ -97,6 +101,13 @@ impl GuardMoment {
     }
 }
 
+/// The line between a vertex and an edge that are close to each other.
+struct SeparatingLine {
+    pair: GuardedPair,
+    /// Unit normal of the line, from the edge towards the vertex.
+    normal: DVec2,
+}
+
 struct GuardStepper<'a> {
     film: &'a Arap,
     placer: Placer,
@@ -115,7 +126,7 @@ impl GuardStepper<'_> {
         let apart = self.outlines.apart();
         let mut moved = before.moved.clone();
         let mut places = sum(&plain, &moved);
-        let mut lines: BTreeMap<GuardedPair, DVec2> = BTreeMap::new();
+        let mut lines: Vec<SeparatingLine> = Vec::new();
         for correction in 0..CORRECTIONS {
             if correction > 0 {
                 self.turned(&mut lines, &places);
@@ -123,10 +134,20 @@ impl GuardStepper<'_> {
             let near = self
                 .outlines
                 .near([&before.places, &places], 2.0 * apart, t);
-            for pair in near {
-                let line = || self.line(pair, before, &plain);
-                lines.entry(pair).or_insert_with(line);
+            if near.len() > MOST_LINES {
+                return None;
             }
+            let known = lines.len();
+            for pair in near {
+                if lines[..known]
+                    .binary_search_by_key(&pair, |line| line.pair)
+                    .is_err()
+                {
+                    let normal = self.line(pair, before, &plain);
+                    lines.push(SeparatingLine { pair, normal });
+                }
+            }
+            lines.sort_unstable_by_key(|line| line.pair);
             let mut rows = self.contacts(&lines, &plain, &places, t);
             self.faces(&plain, &places, &moved, &mut rows);
             let next = smallest(&rows, &mut self.yielding, EXACT * apart)?;
@@ -171,12 +192,13 @@ impl GuardStepper<'_> {
 
     /// Updates the normal of the separating line of each pair that is apart to the current
     /// direction from the edge to the vertex, so that the vertex can slide along the edge.
-    fn turned(&self, lines: &mut BTreeMap<GuardedPair, DVec2>, places: &[DVec2]) {
-        for (&pair, line) in lines.iter_mut() {
-            let towards = self.outlines.towards(pair, places);
-            if self.between(pair, *line, places) > 0.0 && towards.length() > self.outlines.touches()
+    fn turned(&self, lines: &mut [SeparatingLine], places: &[DVec2]) {
+        for SeparatingLine { pair, normal } in lines {
+            let towards = self.outlines.towards(*pair, places);
+            if self.between(*pair, *normal, places) > 0.0
+                && towards.length() > self.outlines.touches()
             {
-                *line = towards.normalize_or_zero();
+                *normal = towards.normalize_or_zero();
             }
         }
     }
@@ -191,14 +213,14 @@ impl GuardStepper<'_> {
 
     fn contacts(
         &self,
-        lines: &BTreeMap<GuardedPair, DVec2>,
+        lines: &[SeparatingLine],
         plain: &[DVec2],
         places: &[DVec2],
         t: f64,
     ) -> Vec<ContactConstraint> {
         let apart = self.outlines.apart();
         let mut rows = Vec::new();
-        for (&pair, &line) in lines {
+        for &SeparatingLine { pair, normal: line } in lines {
             if self.between(pair, line, places) > 2.0 * apart {
                 continue;
             }
