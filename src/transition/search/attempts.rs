@@ -263,17 +263,18 @@ pub(in crate::transition) fn best_of_group(
         Some(drafts) => drafts.clone(),
         None => group.requested_pieces(&ProgressSpan::new(progress, 0.0, REQUESTED_PROGRESS))?,
     };
+    if group.plan.has_many_rings() {
+        return Ok(paired);
+    }
     let mut unpaired: Vec<PieceResult> = Vec::new();
-    if !group.plan.has_many_rings() {
-        for attempt in &ATTEMPTS {
-            match attempt.branch {
-                SearchBranch::Both => {
-                    attempt.run(group, &mut paired, progress)?;
-                    unpaired = paired.clone();
-                }
-                SearchBranch::PairedHoles => attempt.run(group, &mut paired, progress)?,
-                SearchBranch::UnpairedHoles => attempt.run(group, &mut unpaired, progress)?,
+    for attempt in &ATTEMPTS {
+        match attempt.branch {
+            SearchBranch::Both => {
+                attempt.run(group, &mut paired, progress)?;
+                unpaired = paired.clone();
             }
+            SearchBranch::PairedHoles => attempt.run(group, &mut paired, progress)?,
+            SearchBranch::UnpairedHoles => attempt.run(group, &mut unpaired, progress)?,
         }
     }
     let has_unpaired_holes = |best: &MatchCandidate| best.holes == HolePolicy::Unpaired;

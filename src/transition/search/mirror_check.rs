@@ -54,7 +54,7 @@ pub(in crate::transition) fn mirror_note(
 }
 
 /// Matches two designs with the requested options, without a search for better matches, and returns
-/// the pieces; `None` if a piece cannot be matched or triangulated.
+/// the pieces; `None` if a piece cannot be matched or triangulated, or if there are very many rings.
 fn draft(
     spec: &TransitionSpec,
     designs: [&Regions; 2],
@@ -62,6 +62,10 @@ fn draft(
     progress: &dyn Progress,
 ) -> Option<Vec<MatchCandidate>> {
     let prepared = MatchPlan::new(designs, looks, &spec.options.matching, progress).ok()?;
+    // With many rings, a second match of all pieces would take as long as the first.
+    if prepared.has_many_rings() {
+        return None;
+    }
     let groups = (0..prepared.groups().len()).map(|group| {
         let group = GroupSearch {
             plan: &prepared,
