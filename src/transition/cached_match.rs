@@ -6,7 +6,6 @@ use crate::transition::arap_build::without_subdivision;
 use crate::transition::drawing_pair::DrawingPair;
 use crate::transition::options::TransitionOptions;
 use serde::{Deserialize, Serialize};
-use std::hash::Hasher;
 use std::sync::Arc;
 
 /// Step to which the key rounds coordinates, as a fraction of the designs' diameter (tolerance:
@@ -68,8 +67,9 @@ impl CachedMatch {
 /// older cached results are computed again.
 const SOLVER_VERSION: u32 = 3;
 
-/// The hash function FNV-1a with 64 bits (Fowler, Noll, Vo; RFC 9923). Unlike the standard library's
-/// hash functions it is the same in all versions, so that keys in documents stay valid.
+/// The hash function FNV-1a with 64 bits (Fowler, Noll, Vo; RFC 9923). Unlike the standard
+/// library's hash functions, it is the same in all versions and on all platforms, so that keys in
+/// documents stay valid.
 struct FnvHasher(u64);
 
 impl Default for FnvHasher {
@@ -78,7 +78,7 @@ impl Default for FnvHasher {
     }
 }
 
-impl Hasher for FnvHasher {
+impl FnvHasher {
     fn write(&mut self, bytes: &[u8]) {
         for &byte in bytes {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
@@ -112,19 +112,19 @@ pub(in crate::transition) fn cache_key(
     let bounds = bounds[0].union(&bounds[1]);
     let step = COORDINATE_TOLERANCE * bounds.diameter();
     for ring in outlines.iter().flat_map(Regions::rings) {
-        hasher.write_usize(ring.points().len());
+        hasher.write(&(ring.points().len() as u64).to_le_bytes());
         for &point in ring.points() {
             // Coordinates often lie on a grid. The offset keeps grid points away from the
             // boundaries between two steps.
             let from_corner = (point - bounds.min) / step + DVec2::splat(0.381_966);
-            hasher.write_i64(from_corner.x.floor() as i64);
-            hasher.write_i64(from_corner.y.floor() as i64);
+            hasher.write(&(from_corner.x.floor() as i64).to_le_bytes());
+            hasher.write(&(from_corner.y.floor() as i64).to_le_bytes());
         }
     }
     // Drawings in one colour add nothing to the key, so that results cached by versions without
     // colours stay valid.
     for look in drawings.appearances.0.iter().flatten() {
-        hasher.write_usize(look.paint_layer);
+        hasher.write(&(look.paint_layer as u64).to_le_bytes());
         let paint = look
             .paint
             .map(|paint| (paint.colour.0, paint.opacity.to_bits()));

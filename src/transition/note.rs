@@ -60,6 +60,12 @@ pub enum TransitionNote {
         /// Amount added to the diagonal, as a fraction of the diagonal.
         share: f64,
     },
+    /// The positions of some parts that exist in only one design were not searched, because the
+    /// search had reached its limit of work.
+    PartsUnsearched {
+        /// Number of these parts.
+        parts: usize,
+    },
     /// Some parts could not be moved with bounded distortion. In these parts, each face is
     /// interpolated on its own instead.
     Unflattened {
@@ -117,6 +123,10 @@ impl fmt::Display for TransitionNote {
                 f,
                 "all parts move at the same time: only rigid parts can have part timings"
             ),
+            Self::PartsUnsearched { parts } => write!(
+                f,
+                "{parts} of the parts that appear or disappear may cross others: there are too many for a search of all positions; remove small parts, or blend distance fields"
+            ),
             Self::Unflattened { parts } => write!(
                 f,
                 "{parts} of the parts are sheared more in between than at the ends: their triangles change too differently; choose polar interpolation, or another match"
@@ -167,6 +177,10 @@ mod tests {
             (
                 TransitionNote::DiagonalAdded { share: 1e-11 },
                 "1e-11 of the diagonal",
+            ),
+            (
+                TransitionNote::PartsUnsearched { parts: 4 },
+                "4 of the parts that appear",
             ),
             (TransitionNote::Unflattened { parts: 2 }, "2 of the parts"),
         ] {

@@ -93,13 +93,17 @@ fn without_collisions(
     let (mut sample_times, mut first) = (SampleTimes::default(), None);
     let mut previous_collisions = Vec::new();
     loop {
-        let (placed, is_limited) = place_unmatched_parts(
+        let (mut placed, unsearched) = place_unmatched_parts(
             solution.clone(),
             layers,
             &sample_times,
             options.quality,
             progress,
         )?;
+        if unsearched > 0 {
+            let note = TransitionNote::PartsUnsearched { parts: unsearched };
+            placed.notes.push(note);
+        }
         let arap = stiffen_folds(placed.arap, progress)?;
         let solution = RigidSolution { arap, ..placed };
         if (options.quality, options.guard) != (BuildQuality::Best, CollisionAvoidance::On) {
@@ -113,7 +117,7 @@ fn without_collisions(
         let current = (solution, failed_proof);
         // A search that reached its limit of work is not repeated.
         if collision_times.is_empty()
-            || is_limited
+            || unsearched > 0
             || previous_collisions.len() == MAX_REFINEMENTS
             || previous_collisions.last() == Some(&collision_times)
         {
@@ -151,8 +155,8 @@ pub(super) fn with_requested_options(
     stiffen_folds(solved.rebuilt(requested, progress)?, progress)
 }
 
-/// Gives each unmatched part a position and a time window. Also returns whether the search for the
-/// positions reached its limit of work.
+/// Gives each unmatched part a position and a time window. Also returns the number of parts whose
+/// positions were not searched, because the search had reached its limit of work.
 ///
 /// # Errors
 /// If the motion cannot be solved or the work is cancelled.
@@ -162,7 +166,7 @@ fn place_unmatched_parts(
     sample_times: &SampleTimes,
     quality: BuildQuality,
     progress: &dyn Progress,
-) -> Result<(RigidSolution, bool), BuildError> {
+) -> Result<(RigidSolution, usize), BuildError> {
     let options = solution.arap.options();
     let obstacles = (&solution.holes[..], layers, sample_times);
     let placed = placement::placed(
@@ -185,8 +189,8 @@ fn place_unmatched_parts(
                 // The holes stay valid, because they lie in matched pieces, which were not moved.
                 ..solution
             };
-            (placed_solution, placed.is_limited)
+            (placed_solution, placed.unsearched)
         }
-        None => (solution, false),
+        None => (solution, 0),
     })
 }

@@ -83,21 +83,27 @@ struct SolutionRecord {
     /// Distortions of the match as drawn and with one design mirrored, if mirroring was suggested.
     mirrored: Option<[f64; 2]>,
     guard: Option<Guard>,
+    /// Number of parts whose positions were not searched. Older records lack it.
+    #[serde(default)]
+    unsearched: usize,
 }
 
 impl SolutionRecord {
     /// Converts a motion to a record; `None` if the motion has notes that cannot be stored.
     fn of(solution: &RigidSolution) -> Option<Self> {
         let mesh = solution.arap.mesh();
-        let notes = solution.notes.iter();
-        let mut notes = notes.filter(|note| !matches!(note, TransitionNote::CachedMatchIgnored));
-        let mirrored = match (notes.next(), notes.next()) {
-            (None, _) => None,
-            (Some(&TransitionNote::Mirrored { as_drawn, mirrored }), None) => {
-                Some([as_drawn, mirrored])
+        let (mut mirrored, mut unsearched) = (None, 0);
+        for note in &solution.notes {
+            match *note {
+                TransitionNote::CachedMatchIgnored => {}
+                TransitionNote::Mirrored {
+                    as_drawn,
+                    mirrored: distortion,
+                } => mirrored = Some([as_drawn, distortion]),
+                TransitionNote::PartsUnsearched { parts } => unsearched = parts,
+                _ => return None,
             }
-            _ => return None,
-        };
+        }
         Some(Self {
             pieces: solution.matched.pieces.clone(),
             faces: mesh.faces().to_vec(),
@@ -108,7 +114,19 @@ impl SolutionRecord {
             swelling: solution.swelling.clone(),
             mirrored,
             guard: solution.arap.guard().cloned(),
+            unsearched,
         })
+    }
+
+    /// Returns the notes of the motion.
+    fn notes(&self) -> Vec<TransitionNote> {
+        let mirrored = self
+            .mirrored
+            .map(|[as_drawn, mirrored]| TransitionNote::Mirrored { as_drawn, mirrored });
+        let unsearched = (self.unsearched > 0).then_some(TransitionNote::PartsUnsearched {
+            parts: self.unsearched,
+        });
+        mirrored.into_iter().chain(unsearched).collect()
     }
 
     /// Serialises, compresses and encodes the record.
@@ -148,6 +166,7 @@ impl SolutionRecord {
         if !self.is_sound(fit::max_length(outlines)) {
             return Ok(None);
         }
+        let notes = self.notes();
         let [source, target] = self.places;
         let Ok(mesh) = CompatibleMesh::new(self.faces, source, target, Vec::new()) else {
             return Ok(None);
@@ -174,11 +193,7 @@ impl SolutionRecord {
             arap,
             holes,
             swelling: self.swelling,
-            notes: self
-                .mirrored
-                .map(|[as_drawn, mirrored]| TransitionNote::Mirrored { as_drawn, mirrored })
-                .into_iter()
-                .collect(),
+            notes,
         }))
     }
 
@@ -202,6 +217,7 @@ impl SolutionRecord {
             && self.lives.iter().zip(&self.pieces).all(is_of)
             && self.holes.iter().all(TimeWindow::is_valid)
             && self.swelling.iter().all(|&piece| piece < pieces)
+            && self.unsearched <= pieces
             && self.stiffness.len() <= self.faces.len()
             && self.stiffness.iter().all(|&by| (1.0..1e12).contains(&by))
             && self

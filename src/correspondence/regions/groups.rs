@@ -182,7 +182,17 @@ fn user_groups(
 ) -> Result<Vec<PartGroup>, RegionMatchError> {
     let mut groups: Vec<PartGroup> = Vec::new();
     for pair in fixed_pairs(designs, settings, pins) {
-        // A group with one of the two parts, and this part, which then is in several pairs.
+        let has_part = |group: &&PartGroup| {
+            Side::BOTH
+                .iter()
+                .any(|&side| group.parts[side].contains(&pair[side]))
+        };
+        // Joined by the pair, two groups would have several parts in both designs.
+        if groups.iter().filter(has_part).count() > 1 {
+            return Err(PairError::Twice(pair[Side::Source]).into());
+        }
+        // Finds the group that already contains a part of this pair. That part is then in two
+        // pairs.
         let touching = groups.iter_mut().find_map(|group| {
             let is_in_group = |&side: &Side| group.parts[side].contains(&pair[side]);
             let side = Side::BOTH.into_iter().find(is_in_group)?;

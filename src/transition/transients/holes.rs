@@ -163,11 +163,12 @@ impl HoleScene {
         };
         let all = times.par_iter().map_init(|| film.placer(), at);
         let (places, parts) = all.unzip();
+        let placed = times.iter().map(|_| LayeredEdges::default()).collect();
         Self {
             times,
             places,
             parts,
-            placed: Vec::new(),
+            placed,
         }
     }
 
@@ -181,7 +182,7 @@ impl HoleScene {
         mut timetable: TransientSchedule,
         progress: &dyn Progress,
     ) -> Result<Vec<(usize, TimeWindow, usize)>, Cancelled> {
-        self.placed = self.times.iter().map(|_| LayeredEdges::default()).collect();
+        self.placed.fill_with(LayeredEdges::default);
         let mut lives = Vec::new();
         for &(k, known) in order {
             check_cancelled(progress)?;
@@ -240,10 +241,9 @@ impl HoleScene {
             let ring = hole.ring_at(&self.places[step], self.times[step]);
             let ring = ring.map(|ring| LayeredOutline::of(ring, level));
             ring.is_some_and(|ring| {
-                let placed = self.placed.get(step);
                 ring.crosses_itself()
                     || self.parts[step].are_crossed_by(&ring)
-                    || placed.is_some_and(|placed| placed.are_crossed_by(&ring))
+                    || self.placed[step].are_crossed_by(&ring)
             })
         };
         (0..self.times.len()).filter(crosses).take(most).count()

@@ -13,11 +13,11 @@ pub(in crate::transition) struct LayeredOutline {
 
 impl LayeredOutline {
     /// Wraps a closed polygon.
-    pub(in crate::transition) fn of(points: Vec<DVec2>, level: usize) -> Self {
+    pub(in crate::transition) fn of(points: Vec<DVec2>, layer: usize) -> Self {
         let bounds = Bounds::of(points.iter().copied()).unwrap_or_else(|| Bounds::at(DVec2::ZERO));
         Self {
             points,
-            layer: level,
+            layer,
             bounds,
         }
     }

@@ -8,8 +8,9 @@
 //! the matched parts and the parts placed before them.
 //!
 //! Guaranteed: swapping the designs gives the same positions and the reversed time windows, unless
-//! two parts have equal area. Not guaranteed: that a position without collisions exists, or that
-//! nothing collides between the sample times ([`SampleTimes`]).
+//! two parts have equal area or the search reaches [`MAX_TESTED_PAIRS`]. Not guaranteed: that a
+//! position without collisions exists, or that nothing collides between the sample times
+//! ([`SampleTimes`]).
 
 mod anchor;
 mod scene;
@@ -29,9 +30,11 @@ use crate::transition::options::BuildQuality;
 use crate::warp::{Arap, TimeWindow};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
-/// Number of vertices that the search for positions examines (resource limit: ten million take
-/// about 5 s if all outlines are nested). The largest parts are searched first.
-const MAX_EXAMINED: u64 = 5_000_000;
+/// Work after which no positions of further parts are searched, in pairs of a vertex and an outline
+/// (see [`TransientScene::tested_pairs`]). Time windows and positions are searched with this limit
+/// each, the largest parts first; a single part may exceed it (resource limit: with 50 nested rings,
+/// it is reached after 4 s of processor time).
+const MAX_TESTED_PAIRS: u64 = 200_000_000;
 
 /// Returns the initial time windows: [0, 1] for a piece that exists in only one design, `None` for
 /// a matched piece.
@@ -79,8 +82,8 @@ pub(in crate::transition) struct PlacedTransients {
     pub lives: Vec<Option<TimeWindow>>,
     /// Indices of the pieces that swell, that is, grow in thickness within their outline.
     pub swelling: Vec<usize>,
-    /// Whether the search ended early because it had examined [`MAX_EXAMINED`] vertices.
-    pub is_limited: bool,
+    /// Number of parts whose positions were not searched because of [`MAX_TESTED_PAIRS`].
+    pub unsearched: usize,
 }
 
 /// Places all parts that exist in only one design. Returns `None` if there are none, or if rounding
@@ -95,9 +98,9 @@ pub(in crate::transition) fn placed(
     quality: BuildQuality,
     progress: &dyn Progress,
 ) -> Result<Option<PlacedTransients>, Cancelled> {
-    let max_examined = match quality {
+    let max_pairs = match quality {
         BuildQuality::Draft => 0,
-        BuildQuality::Best => MAX_EXAMINED,
+        BuildQuality::Best => MAX_TESTED_PAIRS,
     };
     if lives(matched).iter().all(Option::is_none) {
         return Ok(None);
@@ -108,15 +111,17 @@ pub(in crate::transition) fn placed(
     for (k, (_, hole)) in holes.iter().enumerate() {
         timetable.set(k, hole.window);
     }
-    // Half of the search is left for the choice of positions.
-    let prices = |k: usize| match scene.examined_vertices() < max_examined / 2 {
+    let prices = |k: usize| match scene.tested_pairs() < max_pairs {
         true => scene.prices(&specks[k - holes.len()], film),
         false => Vec::new(),
     };
     timetable.plan(holes.len(), prices, progress)?;
+    let priced = scene.tested_pairs();
+    let mut unsearched = 0;
     for (rank, speck) in specks.iter().enumerate() {
         check_cancelled(progress)?;
-        let is_searched = scene.examined_vertices() < max_examined;
+        let is_searched = scene.tested_pairs() - priced < max_pairs;
+        unsearched += usize::from(quality == BuildQuality::Best && !is_searched);
         scene.place(
             speck,
             (&mut timetable, holes.len() + rank),
@@ -124,8 +129,7 @@ pub(in crate::transition) fn placed(
             is_searched,
         );
     }
-    let is_limited = quality == BuildQuality::Best && scene.examined_vertices() >= max_examined;
-    Ok(with_placements(matched, film, &scene, is_limited))
+    Ok(with_placements(matched, film, &scene, unsearched))
 }
 
 /// Moves all placed parts of a scene to their positions; `None` if rounding folds a face of the
@@ -134,7 +138,7 @@ fn with_placements(
     matched: &RegionMatch,
     film: &Arap,
     scene: &TransientScene,
-    is_limited: bool,
+    unsearched: usize,
 ) -> Option<PlacedTransients> {
     let mut lives = lives(matched);
     let mut swelling = Vec::new();
@@ -157,6 +161,6 @@ fn with_placements(
         mesh,
         lives,
         swelling,
-        is_limited,
+        unsearched,
     })
 }

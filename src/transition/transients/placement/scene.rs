@@ -121,8 +121,8 @@ pub(super) struct TransientScene<'a> {
     bounds: Bounds,
     /// Candidate positions, in addition to those along the part's own outline.
     grid: Vec<DVec2>,
-    /// Vertices of candidate outlines that were examined at a sample time, over all parts so far.
-    examined: AtomicU64,
+    /// See [`Self::tested_pairs`].
+    tested_pairs: AtomicU64,
 }
 
 impl<'a> TransientScene<'a> {
@@ -165,14 +165,16 @@ impl<'a> TransientScene<'a> {
             edges,
             grid: grid(bounds, specks.len()),
             bounds,
-            examined: AtomicU64::new(0),
+            tested_pairs: AtomicU64::new(0),
         }
     }
 
-    /// Returns the number of vertices of candidate outlines that were examined at a sample time,
-    /// over all parts so far. It does not depend on the number of threads.
-    pub(super) fn examined_vertices(&self) -> u64 {
-        self.examined.load(Ordering::Relaxed)
+    /// Returns the work done so far: the number of pairs of a vertex of a candidate outline and an
+    /// outline around it, over all sample times and parts. It does not depend on the number of
+    /// threads: [`Self::cheapest`] lowers its bound only between chunks of fixed size, and the
+    /// number is read only between parts.
+    pub(super) fn tested_pairs(&self) -> u64 {
+        self.tested_pairs.load(Ordering::Relaxed)
     }
 
     /// Places the next part, which has the index `k` in the schedule. If `is_searched` is false,
@@ -372,7 +374,8 @@ impl<'a> TransientScene<'a> {
             let t = self.steps.times()[step];
             let rings = birth.at(speck, film, t, MARGIN);
             let vertices: usize = rings.iter().map(|ring| ring.points.len()).sum();
-            self.examined.fetch_add(vertices as u64, Ordering::Relaxed);
+            let pairs = vertices * (self.outlines[step].len() + self.born.len());
+            self.tested_pairs.fetch_add(pairs as u64, Ordering::Relaxed);
             let side = speck.side;
             if !(self.crosses_none(step, side, &rings) && self.is_apart(step, side, &rings)) {
                 long += self.steps.weight(step);
