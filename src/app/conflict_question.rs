@@ -10,8 +10,7 @@ use crate::app::session::save_conflict::ConflictQuestion;
 use crate::app::session::state::Session;
 use crate::app::unsaved_question::{UnsavedKind, UnsavedQuestion};
 
-/// Applies the answers that do not save the project; the system that saves applies
-/// [`ConflictAnswer::KeepMine`].
+/// Applies the answer. Closes the question if another document has been opened meanwhile.
 pub fn answer(
     mut intents: MessageReader<Intent>,
     mut conflict: ResMut<ConflictQuestion>,
@@ -20,18 +19,24 @@ pub fn answer(
     mut notices: ResMut<Notices>,
     mut commands: Commands,
 ) {
+    if conflict.close_unless(session.document_number()) {
+        unsaved.save_cancelled();
+    }
     for intent in intents.read() {
         let answer = match intent {
             Intent::AnswerConflict(answer) => *answer,
             Intent::Escape => ConflictAnswer::Cancel,
             _ => continue,
         };
-        if !conflict.is_open {
+        if !conflict.close() {
             continue;
         }
-        conflict.is_open = false;
         match answer {
-            ConflictAnswer::KeepMine => {}
+            ConflictAnswer::Overwrite => {
+                if let Some(path) = session.path() {
+                    commands.write_message(Intent::SaveTo(path.to_owned()));
+                }
+            }
             ConflictAnswer::SaveAs => {
                 commands.write_message(Intent::SaveAs);
             }
@@ -39,14 +44,14 @@ pub fn answer(
                 notices.note("Save cancelled");
                 unsaved.save_cancelled();
             }
-            ConflictAnswer::TakeTheirs => take_theirs(&mut session, &mut unsaved, &mut commands),
+            ConflictAnswer::Reload => reload(&mut session, &mut unsaved, &mut commands),
         }
     }
 }
 
 /// Opens the project file again or, if an intent waits for the changes to be saved, continues
 /// without them.
-fn take_theirs(session: &mut Session, unsaved: &mut UnsavedQuestion, commands: &mut Commands) {
+fn reload(session: &mut Session, unsaved: &mut UnsavedQuestion, commands: &mut Commands) {
     if let Some(waiting) = unsaved.take_if_resolved(UnsavedKind::Changes) {
         session.mark_saved();
         commands.write_message(waiting);

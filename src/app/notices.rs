@@ -25,10 +25,12 @@ pub enum NoticeTopic {
     Transition,
     /// Saving the project.
     Saving,
-    /// Changes that are not autosaved. The notice stays until they are, because they may be lost.
+    /// Autosave failure. The notice stays until autosave works again, because changes may be lost.
     Autosave,
-    /// Autosaves in another place than usual, or damaged ones.
-    AutosaveFiles,
+    /// Autosaves in the fallback folder.
+    AutosaveFolder,
+    /// Damaged or unreadable autosave files.
+    DamagedAutosave,
     /// A file name that the file dialog does not accept.
     FileName,
     /// Exporting a film or a comparison sheet.
@@ -51,9 +53,12 @@ pub enum NoticeKind {
 }
 
 impl NoticeTopic {
-    /// Whether the topic concerns the program and not the open project.
+    /// Returns whether notices of this topic stay when another project is opened.
     fn outlives_project(self) -> bool {
-        matches!(self, Self::Autosave | Self::AutosaveFiles)
+        matches!(
+            self,
+            Self::Autosave | Self::AutosaveFolder | Self::DamagedAutosave
+        )
     }
 }
 

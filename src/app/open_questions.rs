@@ -23,7 +23,7 @@ impl OpenQuestions<'_> {
     #[must_use]
     pub fn any(&self) -> bool {
         self.unsaved.text().is_some()
-            || self.conflict.is_open
+            || self.conflict.is_open()
             || self.drop.is_pending()
             || self.autosave.recoverable().is_some()
     }

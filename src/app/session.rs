@@ -1,8 +1,8 @@
 //! The open project.
 //!
 //! [`document`] holds its settings and its segments on the stage, [`history`] its undo steps;
-//! [`load`] and [`save`] read and write files, [`save_conflict`] asks before a file that was changed
-//! elsewhere is replaced, [`unsaved_project`] stores unsaved changes, [`transition_work`] builds
+//! [`load`] and [`save`] read and write files, [`save_conflict`] stores whether the user is being
+//! asked about a file that was changed elsewhere, [`unsaved_project`] stores unsaved changes, [`transition_work`] builds
 //! transitions in the background, and [`transition_problem`] says why one cannot be built;
 //! [`origin`] records where a project comes from; [`state`] combines all these into the resource
 //! that the rest of the application uses.

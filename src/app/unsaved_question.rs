@@ -131,7 +131,7 @@ pub fn answer(
     for intent in intents.read() {
         match intent {
             // Esc closes only the topmost question.
-            Intent::Escape if conflict.is_open => {}
+            Intent::Escape if conflict.is_open() => {}
             Intent::AnswerUnsaved(UnsavedAnswer::Cancel) | Intent::Escape => {
                 // Esc cancels an open question only; once answered, the intent keeps waiting.
                 question.pending.take_if(|pending| !pending.is_answered);

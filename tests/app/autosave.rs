@@ -170,14 +170,14 @@ fn an_autosave_that_cannot_be_opened_is_kept() {
 }
 
 #[test]
-fn changes_that_cannot_be_autosaved_are_reported_until_they_are() {
+fn a_failing_autosave_is_reported_until_it_works() {
     let folder = tempfile::tempdir().expect("a folder");
     let (blocked, autosaves) = (folder.path().join("x"), folder.path().join("x/autosave"));
     std::fs::write(&blocked, "not a folder").expect("a file");
     let mut window = with_autosave(HeadlessWindow::new(), &autosaves);
     let is_reported = |window: &HeadlessWindow| {
         let text = window.problems().join("; ");
-        text.contains("not autosaved") && text.contains("autosave (")
+        text.contains("Autosave is failing") && text.contains("autosave (")
     };
     assert!(is_reported(&window), "at once: {:?}", window.problems());
     window.send(Intent::OpenGallery(gallery_names().remove(0)));
@@ -267,7 +267,7 @@ fn pipes_and_folders_do_not_block_the_start_and_damaged_autosaves_are_kept() {
 
 #[cfg(unix)]
 #[test]
-fn designs_whose_names_are_no_text_are_autosaved() {
+fn designs_with_non_utf8_names_are_autosaved() {
     use std::os::unix::ffi::OsStrExt;
     let [folder, drawings] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
     let pair = [&b"a\xe9.json"[..], b"b\xff.json"].map(|name| {

@@ -363,7 +363,7 @@ fn a_preset_stores_the_export_folder() {
 
 /// Whether the window asks about a file that was changed elsewhere.
 fn asks_about_conflict(window: &HeadlessWindow) -> bool {
-    window.0.world().resource::<ConflictQuestion>().is_open
+    window.0.world().resource::<ConflictQuestion>().is_open()
 }
 
 /// Two windows with the same project file, which the second has changed since the first opened it;
@@ -396,7 +396,8 @@ fn a_file_that_another_window_changed_is_replaced_only_if_the_user_says_so() {
     assert!(!asks_about_conflict(&window) && reports_cancelled_save(&window));
     assert_eq!(text(), theirs);
     window.send(Intent::Save);
-    window.send(Intent::AnswerConflict(ConflictAnswer::KeepMine));
+    window.send(Intent::AnswerConflict(ConflictAnswer::Overwrite));
+    window.update();
     assert!(!asks_about_conflict(&window) && !window.session().is_dirty());
     assert_ne!(text(), theirs);
     // The file is now the one that this window saved.
@@ -411,7 +412,7 @@ fn the_version_of_another_window_can_be_opened_instead() {
     let path = folder.path().join("mine.morph");
     let (mut window, theirs) = window_with_conflict(&path);
     let mine = window.session().timing().play;
-    window.send(Intent::AnswerConflict(ConflictAnswer::TakeTheirs));
+    window.send(Intent::AnswerConflict(ConflictAnswer::Reload));
     window.wait();
     assert!(!window.session().is_dirty());
     assert_ne!(window.session().timing().play, mine);
@@ -436,8 +437,8 @@ fn a_conflicting_version_can_be_saved_in_another_file() {
 fn closing_waits_for_the_answer_about_a_changed_file() {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, answer, is_replaced) in [
-        ("a.morph", ConflictAnswer::KeepMine, true),
-        ("b.morph", ConflictAnswer::TakeTheirs, false),
+        ("a.morph", ConflictAnswer::Overwrite, true),
+        ("b.morph", ConflictAnswer::Reload, false),
     ] {
         let path = folder.path().join(name);
         let (mut window, theirs) = window_with_conflict(&path);
@@ -459,6 +460,25 @@ fn closing_waits_for_the_answer_about_a_changed_file() {
 }
 
 #[test]
+fn the_question_about_a_changed_file_closes_when_another_project_is_opened() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let paths = ["mine.morph", "other.morph"].map(|name| folder.path().join(name));
+    with_change().send(Intent::SaveTo(paths[1].clone()));
+    let (mut window, theirs) = window_with_conflict(&paths[0]);
+    let other = std::fs::read_to_string(&paths[1]).expect("text");
+    window.send(Intent::Open(vec![paths[1].clone()]));
+    window.send(Intent::AnswerUnsaved(UnsavedAnswer::Discard));
+    window.wait();
+    window.update();
+    assert_eq!(window.session().path(), Some(paths[1].as_path()));
+    assert!(!asks_about_conflict(&window));
+    window.send(Intent::AnswerConflict(ConflictAnswer::Overwrite));
+    window.update();
+    let texts = paths.map(|path| std::fs::read_to_string(path).expect("text"));
+    assert_eq!(texts, [theirs, other]);
+}
+
+#[test]
 fn a_touched_or_deleted_file_raises_no_question() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("mine.morph");
@@ -477,7 +497,7 @@ fn a_touched_or_deleted_file_raises_no_question() {
 
 #[cfg(unix)]
 #[test]
-fn a_project_whose_name_and_designs_are_no_text_is_saved_and_opened() {
+fn a_project_with_non_utf8_names_is_saved_and_opened() {
     use std::os::unix::ffi::OsStrExt;
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &[u8]| folder.path().join(std::ffi::OsStr::from_bytes(name));

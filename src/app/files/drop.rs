@@ -109,7 +109,7 @@ pub fn close_drop_question(
 ) {
     // Esc closes only the topmost question.
     let is_topmost =
-        question.text().is_none() && !conflict.is_open && autosave.recoverable().is_none();
+        question.text().is_none() && !conflict.is_open() && autosave.recoverable().is_none();
     let is_decided = |intent: &Intent| match intent {
         Intent::Escape => is_topmost,
         intent => matches!(

@@ -14,7 +14,7 @@ use crate::app::editing::editor::MatchEditor;
 use crate::app::files::drop::DroppedDesign;
 use crate::app::files::invitation::START_PROJECT;
 use crate::app::input::gesture::Gesture;
-use crate::app::input::intent::{ConflictAnswer, Intent};
+use crate::app::input::intent::Intent;
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::playback::player::{Playback, STOP_TOLERANCE_T};
 use crate::app::presentation::presenter::Presentation;
@@ -317,11 +317,10 @@ pub fn save(
     for intent in intents.read() {
         let saved = match intent {
             Intent::Save if session.is_changed_elsewhere() => {
-                conflict.is_open = true;
+                conflict.ask(session.document_number());
                 continue;
             }
             Intent::Save if session.path().is_some() => session.save(None),
-            Intent::AnswerConflict(ConflictAnswer::KeepMine) => session.save(None),
             Intent::SaveTo(path) => session.save(Some(path)),
             _ => continue,
         };

@@ -238,10 +238,10 @@ pub enum ExportKind {
 /// Answer to the question about a project file that another program or window has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConflictAnswer {
-    /// Replace the file by the open project.
-    KeepMine,
+    /// Replace the file with the open project.
+    Overwrite,
     /// Discard the changes of the open project and open the file again.
-    TakeTheirs,
+    Reload,
     /// Save the open project in another file.
     SaveAs,
     /// Do not save.

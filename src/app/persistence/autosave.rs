@@ -1,8 +1,8 @@
 //! Autosave: unsaved changes are written to the state folder within seconds, and offered for
 //! recovery at the next start after a crash, kill or power failure.
 //!
-//! If the state folder cannot be used, the folder for temporary files takes its place. A notice
-//! says so; if neither can be used, the notice stays until autosave works again.
+//! If the state folder is not writable, autosaves go to the folder for temporary files, and a notice
+//! names it. If neither is writable, a notice stays until autosave works again.
 
 use std::convert::Infallible;
 use std::io;
@@ -15,7 +15,7 @@ use crate::app::input::intent::{Intent, RecoveryAnswer};
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::output_files::ScratchFolder;
-use crate::app::persistence::autosave_slot::{AbandonedProject, AutosaveSlot, LockedSlots};
+use crate::app::persistence::autosave_slot::{AbandonedProject, AutosaveSlot};
 use crate::app::session::load::LoadRequest;
 use crate::app::session::save_conflict::ConflictQuestion;
 use crate::app::session::state::Session;
@@ -51,7 +51,7 @@ fn temporary_folder() -> PathBuf {
 
 /// A folder for autosaves and the slot that this window has locked there, if any.
 #[derive(Debug)]
-struct AutosavePlace {
+struct AutosaveFolder {
     folder: PathBuf,
     slot: Option<AutosaveSlot>,
 }
@@ -62,27 +62,43 @@ enum AutosaveStatus {
     /// Autosaves are written to the first place.
     #[default]
     Working,
-    /// Autosaves are written to another place; contains the text of the notice.
+    /// Autosaves are written to another folder; contains the text of the notice.
     Elsewhere(String),
     /// Nothing can be autosaved; contains the reason.
     Failing(String),
 }
 
+impl AutosaveStatus {
+    /// Returns the status if the first folder failed for `reason`, and autosaves go to `used`.
+    fn new(reason: Option<String>, used: Option<&Path>) -> Self {
+        match (reason, used) {
+            (None, _) => Self::Working,
+            (Some(reason), Some(used)) => Self::Elsewhere(format!(
+                "Cannot autosave to {reason}. Autosaves go to {} instead",
+                used.display()
+            )),
+            (Some(reason), None) => Self::Failing(format!("cannot write to {reason}")),
+        }
+    }
+}
+
 /// The autosave of this window, and those that other windows left behind.
 #[derive(Resource, Debug, Default)]
 pub struct Autosave {
-    /// Places in order of preference: each is used if those before it cannot be. Empty if autosave
-    /// is switched off, as in tests.
-    places: Vec<AutosavePlace>,
-    /// Slots that a recovered project's slot has replaced. They stay locked because they are stored
-    /// here.
+    /// Folders in order of preference. An autosave goes to the first one that is writable. Empty if
+    /// autosave is off, as in tests.
+    places: Vec<AutosaveFolder>,
+    /// Slots of this window that the slot of a recovered project has replaced. They are stored here
+    /// to keep them locked.
     former_slots: Vec<AutosaveSlot>,
     /// Slot of the project being recovered; it becomes the current slot once the project is open.
     opening_slot: Option<AutosaveSlot>,
     /// Autosaves left behind by windows that ended without saving.
     abandoned: Vec<AbandonedProject>,
-    /// Damaged autosaves that were renamed and have not been reported.
-    set_aside: Vec<PathBuf>,
+    /// New paths of damaged autosaves that have not been reported.
+    damaged_files: Vec<PathBuf>,
+    /// Autosaves that cannot be read, with the reasons, and have not been reported.
+    unreadable_files: Vec<String>,
     /// The project written last; `None` if writing it failed.
     written: Option<Project>,
     /// Time at which writing was last started.
@@ -90,38 +106,45 @@ pub struct Autosave {
     /// Whether the open project differs from the autosave.
     is_behind: bool,
     /// Whether the slots contain changes of the open project.
-    slot_is_ours: bool,
+    has_own_changes: bool,
     /// Whether the changes in the slots have been saved or discarded, so that the slots can be
     /// cleared.
     is_resolved: bool,
-    job: Option<BackgroundJob<WrittenAutosave, Infallible>>,
+    job: Option<BackgroundJob<AutosaveOutcome, Infallible>>,
     status: AutosaveStatus,
     /// Status that the notices show.
     reported: AutosaveStatus,
 }
 
 impl Autosave {
-    /// Starts autosaving in the first of these folders that can be used. Later folders are used if
-    /// earlier ones fail, and may contain autosaves to recover.
+    /// Starts autosaving in the first of these folders that is writable. Also collects the autosaves
+    /// in the other folders that exist.
     #[must_use]
     pub fn start_in(folders: &[impl AsRef<Path>]) -> Self {
         let mut autosave = Self::default();
         let mut reason = None;
         for folder in folders.iter().map(AsRef::as_ref) {
-            let mut place = AutosavePlace {
+            let mut place = AutosaveFolder {
                 folder: folder.to_owned(),
                 slot: None,
             };
             let is_needed = autosave.used_folder().is_none();
             if is_needed || folder.exists() {
                 match AutosaveSlot::lock_free_slot(folder) {
-                    Ok(locked) => {
-                        place.slot = Some(locked.free);
-                        autosave.abandoned.extend(locked.abandoned);
-                        autosave.set_aside.extend(locked.set_aside);
+                    Ok(scan) => {
+                        autosave.abandoned.extend(scan.abandoned);
+                        autosave.damaged_files.extend(scan.damaged_files);
+                        autosave.unreadable_files.extend(scan.unreadable_files);
+                        match scan.free {
+                            Ok(slot) => place.slot = Some(slot),
+                            Err(error) if is_needed => {
+                                reason.get_or_insert_with(|| write_failure(folder, &error));
+                            }
+                            Err(_) => {}
+                        }
                     }
                     Err(error) if is_needed => {
-                        reason.get_or_insert_with(|| problem(folder, &error));
+                        reason.get_or_insert_with(|| write_failure(folder, &error));
                     }
                     Err(_) => {}
                 }
@@ -131,7 +154,7 @@ impl Autosave {
         let abandoned = &mut autosave.abandoned;
         abandoned.sort_by_key(|abandoned| std::cmp::Reverse(abandoned.written_at));
         let used = autosave.used_folder().map(Path::to_owned);
-        autosave.status = status(reason, used.as_deref());
+        autosave.status = AutosaveStatus::new(reason, used.as_deref());
         autosave
     }
 
@@ -159,10 +182,12 @@ impl Autosave {
         Some((&abandoned.project.title, age))
     }
 
-    /// Whether changes are not autosaved yet.
+    /// Whether changes are about to be autosaved. While autosave fails, writing is tried again at
+    /// the usual redraws.
     #[must_use]
     pub fn is_behind(&self) -> bool {
-        self.is_behind || self.job.is_some()
+        let is_failing = matches!(self.status, AutosaveStatus::Failing(_));
+        (self.is_behind && !is_failing) || self.job.is_some()
     }
 }
 
@@ -181,58 +206,62 @@ impl Drop for Autosave {
 }
 
 /// Reason why a folder or file cannot be used.
-fn problem(path: &Path, error: &io::Error) -> String {
+fn write_failure(path: &Path, error: &io::Error) -> String {
     let reason = write_error_reason(error);
-    format!("cannot write to {} ({reason})", path.display())
-}
-
-/// Status of autosave: `reason` says why the first place is not used, and `used` is the folder of
-/// the place that is.
-fn status(reason: Option<String>, used: Option<&Path>) -> AutosaveStatus {
-    match (reason, used) {
-        (None, _) => AutosaveStatus::Working,
-        (Some(reason), Some(used)) => AutosaveStatus::Elsewhere(format!(
-            "Autosave {reason}. Autosaves are stored in {} instead",
-            used.display()
-        )),
-        (Some(reason), None) => AutosaveStatus::Failing(reason),
-    }
+    format!("{} ({reason})", path.display())
 }
 
 /// Result of writing an autosave.
 #[derive(Debug, Default)]
-struct WrittenAutosave {
-    /// Index of the place that it was written to; `None` if all failed.
+struct AutosaveOutcome {
+    /// Index of the folder that it was written to; `None` if all failed.
     place: Option<usize>,
-    /// Slots that were locked there for the first time.
-    locked: Option<LockedSlots>,
-    /// Reason why the first place failed; `None` if it was written to.
+    /// Slot that was locked there for the first time.
+    locked: Option<AutosaveSlot>,
+    /// New paths of damaged autosaves that were found.
+    damaged_files: Vec<PathBuf>,
+    /// Reason why the first folder failed; `None` if it was written to.
     reason: Option<String>,
 }
 
-impl WrittenAutosave {
-    /// Writes an autosave to the first place that can be written to. A place is given by its folder
-    /// and the path of the locked slot, if there is one.
-    fn write(unsaved: &UnsavedProject, places: &[(PathBuf, Option<PathBuf>)]) -> Self {
-        let mut result = Self::default();
-        for (index, (folder, path)) in places.iter().enumerate() {
+impl AutosaveOutcome {
+    /// Writes an autosave to the first folder that is writable. A folder comes with the path of the
+    /// slot that is locked in it, if there is one.
+    fn write(unsaved: &UnsavedProject, folders: &[(PathBuf, Option<PathBuf>)]) -> Self {
+        let mut outcome = Self::default();
+        for (index, (folder, path)) in folders.iter().enumerate() {
             let written = match path {
                 Some(path) => unsaved.write(path).map(|()| None),
-                None => AutosaveSlot::lock_free_slot(folder)
-                    .and_then(|locked| unsaved.write(&locked.free.path).map(|()| Some(locked))),
+                None => outcome.write_to_new_slot(unsaved, folder).map(Some),
             };
             match written {
                 Ok(locked) => {
-                    (result.place, result.locked) = (Some(index), locked);
+                    (outcome.place, outcome.locked) = (Some(index), locked);
                     break;
                 }
                 Err(error) => {
                     let path = path.as_ref().unwrap_or(folder);
-                    result.reason.get_or_insert_with(|| problem(path, &error));
+                    outcome
+                        .reason
+                        .get_or_insert_with(|| write_failure(path, &error));
                 }
             }
         }
-        result
+        outcome
+    }
+
+    /// Locks a free slot in a folder and writes an autosave to it. Autosaves that are found there
+    /// are offered at the next start.
+    fn write_to_new_slot(
+        &mut self,
+        unsaved: &UnsavedProject,
+        folder: &Path,
+    ) -> io::Result<AutosaveSlot> {
+        let scan = AutosaveSlot::lock_free_slot(folder)?;
+        self.damaged_files.extend(scan.damaged_files);
+        let slot = scan.free?;
+        unsaved.write(&slot.path)?;
+        Ok(slot)
     }
 }
 
@@ -250,7 +279,7 @@ pub fn answer_recovery(
             Intent::AnswerRecovery(answer) => *answer,
             // If another question is open above the offer to recover, Esc closes only that
             // question.
-            Intent::Escape if question.text().is_none() && !conflict.is_open => {
+            Intent::Escape if question.text().is_none() && !conflict.is_open() => {
                 RecoveryAnswer::Later
             }
             _ => continue,
@@ -288,11 +317,11 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
     if session.is_changed() {
         if session.is_dirty() {
             autosave.is_behind = session.whole_project() != autosave.written.as_ref();
-            (autosave.slot_is_ours, autosave.is_resolved) = (true, false);
+            (autosave.has_own_changes, autosave.is_resolved) = (true, false);
         } else {
             autosave.is_behind = false;
             // Only an autosave written for this project may be deleted.
-            autosave.is_resolved = autosave.slot_is_ours;
+            autosave.is_resolved = autosave.has_own_changes;
         }
     }
     autosave.is_behind &= session.is_dirty();
@@ -314,7 +343,7 @@ impl Autosave {
                 let place = places.find(|place| slot.path.starts_with(&place.folder));
                 let former = place.and_then(|place| place.slot.replace(slot));
                 self.former_slots.extend(former);
-                (self.slot_is_ours, self.is_resolved, self.written) = (true, false, None);
+                (self.has_own_changes, self.is_resolved, self.written) = (true, false, None);
             }
         } else {
             self.opening_slot = None;
@@ -327,20 +356,20 @@ impl Autosave {
         let Some(result) = BackgroundJob::take_result(&mut self.job) else {
             return;
         };
-        let result = result.unwrap_or_else(|error| WrittenAutosave {
+        let result = result.unwrap_or_else(|error| AutosaveOutcome {
             reason: Some(error.to_string()),
-            ..WrittenAutosave::default()
+            ..AutosaveOutcome::default()
         });
+        self.damaged_files.extend(result.damaged_files);
         match result.place {
             Some(written) => {
-                if let Some(locked) = result.locked {
-                    self.places[written].slot = Some(locked.free);
-                    self.set_aside.extend(locked.set_aside);
+                if let Some(slot) = result.locked {
+                    self.places[written].slot = Some(slot);
                 }
-                // Autosaves in other places are older.
-                let others = self.places.iter().enumerate();
-                let others = others.filter(|(index, _)| *index != written);
-                let slots = others.filter_map(|(_, place)| place.slot.as_ref());
+                // Autosaves in later folders are older. One in an earlier folder is kept, because
+                // it also survives a power failure.
+                let later = &self.places[written + 1..];
+                let slots = later.iter().filter_map(|place| place.slot.as_ref());
                 slots.for_each(AutosaveSlot::clear);
             }
             None => (self.written, self.is_behind) = (None, true),
@@ -348,30 +377,34 @@ impl Autosave {
         let used = result
             .place
             .map(|index| self.places[index].folder.as_path());
-        self.status = status(result.reason, used);
+        self.status = AutosaveStatus::new(result.reason, used);
     }
 
-    /// Shows a changed status, and the autosaves that were set aside.
+    /// Shows a changed status, and the autosaves that cannot be recovered.
     fn report(&mut self, notices: &mut Notices) {
-        for path in self.set_aside.drain(..) {
+        for path in self.damaged_files.drain(..) {
             let text = format!(
-                "An autosave is damaged and cannot be recovered. It was kept as {}",
+                "A damaged autosave cannot be recovered. It was renamed to {}",
                 path.display()
             );
-            notices.problem(NoticeTopic::AutosaveFiles, text);
+            notices.problem(NoticeTopic::DamagedAutosave, text);
+        }
+        for reason in self.unreadable_files.drain(..) {
+            let text = format!("An autosave cannot be read: {reason}");
+            notices.problem(NoticeTopic::DamagedAutosave, text);
         }
         if self.status == self.reported {
             return;
         }
-        match &self.status {
-            AutosaveStatus::Working => notices.resolve(NoticeTopic::AutosaveFiles),
-            AutosaveStatus::Elsewhere(text) => notices.problem(NoticeTopic::AutosaveFiles, text),
-            AutosaveStatus::Failing(_) => {}
-        }
+        notices.resolve(NoticeTopic::AutosaveFolder);
         notices.resolve(NoticeTopic::Autosave);
-        if let AutosaveStatus::Failing(reason) = &self.status {
-            let text = format!("Changes are not autosaved: {reason}. Save the project regularly");
-            notices.problem(NoticeTopic::Autosave, text);
+        match &self.status {
+            AutosaveStatus::Working => {}
+            AutosaveStatus::Elsewhere(text) => notices.problem(NoticeTopic::AutosaveFolder, text),
+            AutosaveStatus::Failing(reason) => {
+                let text = format!("Autosave is failing: {reason}. Save the project regularly");
+                notices.problem(NoticeTopic::Autosave, text);
+            }
         }
         self.reported = self.status.clone();
     }
@@ -381,7 +414,7 @@ impl Autosave {
         if self.is_resolved && self.job.is_none() {
             let slots = self.places.iter().filter_map(|place| place.slot.as_ref());
             slots.for_each(AutosaveSlot::clear);
-            (self.slot_is_ours, self.is_resolved, self.written) = (false, false, None);
+            (self.has_own_changes, self.is_resolved, self.written) = (false, false, None);
         }
     }
 
@@ -395,8 +428,8 @@ impl Autosave {
         }
         self.started_at = Some(Instant::now());
         for place in &mut self.places {
-            // A slot is lost with its folder, and locked anew in a new one.
-            place.slot.take_if(|_| !place.folder.is_dir());
+            // A lock protects nothing once its file has been deleted or replaced.
+            place.slot.take_if(|slot| slot.has_lost_lock());
         }
         match session.unsaved_project() {
             Some(Ok(unsaved)) => {
@@ -406,7 +439,7 @@ impl Autosave {
                     places.map(|place| (place.folder.clone(), place.slot.as_ref().map(path)));
                 let places: Vec<_> = places.collect();
                 self.job = Some(BackgroundJob::start("the autosave", move |_| {
-                    Ok(WrittenAutosave::write(&unsaved, &places))
+                    Ok(AutosaveOutcome::write(&unsaved, &places))
                 }));
                 self.written = session.whole_project().cloned();
                 self.is_behind = false;

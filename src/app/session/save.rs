@@ -39,8 +39,7 @@ pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), SaveError> {
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     // Works on a copy, so that a failed save leaves the open project unchanged.
     let project = with_relative_paths(loaded.project.clone(), loaded.folder.as_deref(), &folder)?;
-    project.save_atomically(&path)?;
-    loaded.file_hash = Some(Project::file_hash(project.to_toml()?.as_bytes()));
+    loaded.file_hash = Some(project.save_atomically(&path)?);
     loaded.project = project;
     loaded.folder = Some(folder);
     Ok(())

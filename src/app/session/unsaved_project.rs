@@ -12,6 +12,17 @@ use crate::io::path_text;
 use crate::io::read::{self, ReadError};
 use crate::project::{LoadedProject, Project, ProjectError};
 
+/// Reason why an autosave was not read.
+#[derive(Debug, thiserror::Error)]
+pub enum UnsavedReadError {
+    /// The file is not regular, or was not written by this program.
+    #[error("this is not an autosave")]
+    Invalid,
+    /// The file cannot be read at the moment.
+    #[error(transparent)]
+    Unreadable(ReadError),
+}
+
 /// A project with unsaved changes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct UnsavedProject {
@@ -102,12 +113,15 @@ impl UnsavedProject {
     /// Reads the data from `path`; `None` if there is no file.
     ///
     /// # Errors
-    /// The file cannot be read or was not written by this program.
-    pub fn read(path: &Path) -> io::Result<Option<Self>> {
+    /// [`UnsavedReadError`] says whether there is no valid autosave or the file cannot be read.
+    pub fn read(path: &Path) -> Result<Option<Self>, UnsavedReadError> {
         match read::read(path) {
-            Ok(bytes) => Ok(Some(serde_json::from_slice(&bytes)?)),
+            Ok(bytes) => serde_json::from_slice(&bytes)
+                .map(Some)
+                .map_err(|_| UnsavedReadError::Invalid),
             Err(ReadError::Missing) => Ok(None),
-            Err(error) => Err(io::Error::other(error)),
+            Err(ReadError::Folder | ReadError::NotRegularFile) => Err(UnsavedReadError::Invalid),
+            Err(error) => Err(UnsavedReadError::Unreadable(error)),
         }
     }
 }

@@ -1,11 +1,11 @@
 //! Text of labels: capitalises the first letter, and shortens text that contains names from files.
 
-/// Maximum number of characters of a sentence with a name in it (resource limit: twice the longest
-/// sentence of a dialog without its name).
-const MAX_CHARS: usize = 300;
+/// Maximum number of characters of a sentence with a name in it (heuristic: leaves at least 170
+/// characters for names, since the longest sentence of a dialog has 129 without them).
+pub const MAX_CHARS: usize = 300;
 
 /// Returns the text without its middle if it is too long for a dialog. A third of the result comes
-/// from the end, because most sentences name a thing first and then say what happened to it.
+/// from the end (heuristic: longer than any text that follows a name).
 pub fn shortened(text: &str) -> String {
     let count = text.chars().count();
     if count <= MAX_CHARS {

@@ -18,13 +18,13 @@ use crate::design::DesignSource;
 use crate::io::sanitize::SanitizedLine;
 use crate::project::Project;
 
-/// Maximum number of rows of a question's text (resource limit: with its heading and buttons the
-/// question must fit into the smallest window; 300 characters of usual scripts take fewer rows).
+/// Maximum number of rows of a question's text (layout limit: with its heading and buttons, the
+/// question must fit into the smallest window; a shortened text in usual scripts takes fewer rows).
 const MAX_ROWS: usize = 12;
 
 /// Draws the question that waits for an answer, if there is one; returns its rectangle.
 pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) -> Option<Rect> {
-    let question = if state.conflict.is_open {
+    let question = if state.conflict.is_open() {
         ask_conflict(ctx, &state.session.title(), intents)
     } else if let (Some(words), Some(kind)) = (state.question.text(), state.question.kind()) {
         ask_before_closing(ctx, kind, words, intents)
@@ -49,7 +49,7 @@ fn dialog(ctx: &Context, name: &str, width: f32, content: impl FnOnce(&mut Ui)) 
 
 /// Draws the text of a question. Its names come from files and may be of any length and script, so
 /// it is shortened; the whole text appears on hover.
-fn sentence(ui: &mut Ui, text: &str) {
+fn question_text(ui: &mut Ui, text: &str) {
     let whole = SanitizedLine(text).to_string();
     let short = shortened(&whole);
     let font = TextStyle::Body.resolve(ui.style());
@@ -80,7 +80,7 @@ fn ask_before_closing(
     let [heading, keep, discard] = labels(kind);
     dialog(ctx, "unsaved changes", 400.0, |ui| {
         ui.heading(heading);
-        sentence(ui, question);
+        question_text(ui, question);
         answers(ui, |ui| {
             if primary_button(ui, keep).clicked() {
                 intents.push(Intent::AnswerUnsaved(UnsavedAnswer::Save));
@@ -96,28 +96,26 @@ fn ask_before_closing(
     })
 }
 
-/// Asks what to do with a project file that was changed elsewhere.
+/// Asks whether to replace a project file that was changed elsewhere.
 fn ask_conflict(ctx: &Context, title: &str, intents: &mut Intents) -> Rect {
     dialog(ctx, "conflict", 440.0, |ui| {
-        ui.heading("The file has changed");
-        let text = format!(
-            "Another program or window has changed the file of “{title}” since it was opened or \
-             last saved here."
-        );
-        sentence(ui, &text);
+        ui.heading("The file has changed on disk");
+        let text =
+            format!("The file of “{title}” has changed since it was opened or last saved here.");
+        question_text(ui, &text);
         answers(ui, |ui| {
             let mut answer = |button: Response, tip: &str, answer: ConflictAnswer| {
                 if button.on_hover_text(tip).clicked() {
                     intents.push(Intent::AnswerConflict(answer));
                 }
             };
-            let tip = "Saves your version in another file.";
+            let tip = "Saves your version as another file.";
             answer(primary_button(ui, "Save as …"), tip, ConflictAnswer::SaveAs);
-            let tip = "Replaces the file by your version.";
-            answer(ui.button("Keep mine"), tip, ConflictAnswer::KeepMine);
-            let tip = "Discards your changes and opens the file.";
-            answer(ui.button("Take theirs"), tip, ConflictAnswer::TakeTheirs);
-            let tip = "Does not save (Esc).";
+            let tip = "Replaces the file with your version.";
+            answer(ui.button("Overwrite"), tip, ConflictAnswer::Overwrite);
+            let tip = "Discards your changes and keeps the file.";
+            answer(ui.button("Reload file"), tip, ConflictAnswer::Reload);
+            let tip = "Leaves the file unchanged (Esc).";
             answer(ui.button("Cancel"), tip, ConflictAnswer::Cancel);
         });
     })
@@ -133,7 +131,7 @@ fn ask_recover(ctx: &Context, title: &str, age: Option<Duration>, intents: &mut 
             "Morphospace closed before changes to “{title}” were saved{when}. They can be \
              recovered."
         );
-        sentence(ui, &text);
+        question_text(ui, &text);
         answers(ui, |ui| {
             if primary_button(ui, "Recover").clicked() {
                 intents.push(Intent::AnswerRecovery(RecoveryAnswer::Restore));
@@ -183,7 +181,7 @@ fn ask_drop(ctx: &Context, state: &UiState, path: &Path, intents: &mut Intents) 
             "A film leads from one design to another. Choose the second design for a new film \
              that starts with “{name}”{open_film}."
         );
-        sentence(ui, &text);
+        question_text(ui, &text);
         answers(ui, |ui| {
             if primary_button(ui, "Choose second …").clicked() {
                 intents.push(Intent::AskSecond(path.to_owned()));
@@ -232,6 +230,7 @@ fn answers(ui: &mut Ui, buttons: impl FnOnce(&mut Ui)) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::ui::kit::text::MAX_CHARS;
     use bevy_egui::egui::{Pos2, RawInput, vec2};
 
     /// Rectangle of a dialog in a small window.
@@ -279,6 +278,6 @@ mod tests {
         let text = format!("“{}” has unsaved changes.", "字".repeat(10_000));
         let short = shortened(&SanitizedLine(text).to_string());
         assert!(short.starts_with("“字") && short.ends_with("字” has unsaved changes."));
-        assert_eq!(short.chars().count(), 300);
+        assert_eq!(short.chars().count(), MAX_CHARS);
     }
 }
