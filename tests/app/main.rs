@@ -3,10 +3,13 @@
 
 mod autosave;
 mod comparison;
+#[path = "../hostile/endless_fonts.rs"]
+mod endless_fonts;
 mod files;
 mod first_minute;
 mod headless_window;
 mod hidden_panels;
+mod hostile_files;
 mod jobs_and_notices;
 mod keys;
 mod map;

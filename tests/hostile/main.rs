@@ -7,9 +7,12 @@
 
 mod bounded_run;
 mod broken_pictures;
+mod endless_fonts;
 mod expansion_bombs;
 mod extreme_numbers;
 mod fonts;
 mod large_images;
+mod proofs;
 mod special_files;
+mod stored_matches;
 mod terminal_escapes;

@@ -1,0 +1,104 @@
+//! Tests of projects whose stored match was changed: the match is checked, and found anew if it
+//! does not fit the designs.
+
+use crate::bounded_run::BoundedFixture;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::read::{ZlibDecoder, ZlibEncoder};
+use serde_json::{Value, json};
+use std::fs;
+use std::io::Read;
+
+/// Writes a project with a stored match of two squares, and returns the match and the text of the
+/// file in which it lies.
+fn stored_match(fixture: &BoundedFixture) -> (Value, String, String) {
+    fixture.write("large.json", "[[0,0],[40,0],[40,40],[0,40]]");
+    fixture.write("low.json", "[[0,0],[40,0],[40,30],[0,40]]");
+    let new = [
+        "new",
+        "large.json",
+        "low.json",
+        "--film",
+        "--out",
+        "good.morph",
+    ];
+    assert_eq!(fixture.run_long(&new).code, Some(0));
+    let project = fs::read_to_string(fixture.path("good.morph")).expect("written");
+    let table: toml::Table = project.parse().expect("TOML");
+    let film = table["found"]["film"].as_str().expect("text").to_owned();
+    let packed = STANDARD.decode(film.replace('\n', "")).expect("base64");
+    let mut bytes = Vec::new();
+    let mut decoder = ZlibDecoder::new(packed.as_slice());
+    decoder.read_to_end(&mut bytes).expect("compressed bytes");
+    let record = rmp_serde::from_slice(&bytes).expect("MessagePack");
+    (record, project, film)
+}
+
+/// Encodes a match as the program does.
+fn encoded(record: &Value) -> String {
+    let bytes = rmp_serde::to_vec(record).expect("MessagePack");
+    let mut packed = Vec::new();
+    let mut encoder = ZlibEncoder::new(bytes.as_slice(), Compression::best());
+    encoder.read_to_end(&mut packed).expect("in memory");
+    STANDARD.encode(packed)
+}
+
+#[test]
+fn a_stored_match_that_does_not_fit_the_designs_is_found_anew() {
+    let fixture = BoundedFixture::new();
+    let (record, project, film) = stored_match(&fixture);
+    let guard = |by: f64| {
+        let mut record = record.clone();
+        record[8] = json!([
+            [0.0, 0.5, 1.0],
+            [0],
+            [[[0.0, 0.0]], [[by, 0.0]], [[0.0, 0.0]]]
+        ]);
+        record
+    };
+    // Multiplies all coordinates of the mesh, which are in the third field.
+    let scaled = |by: [f64; 2]| {
+        let mut record = record.clone();
+        for design in record[2].as_array_mut().expect("two designs") {
+            for point in design.as_array_mut().expect("points") {
+                for (axis, by) in by.into_iter().enumerate() {
+                    point[axis] = json!(point[axis].as_f64().expect("a number") * by);
+                }
+            }
+        }
+        record
+    };
+    let report = |name: &str, record: &Value| {
+        let text = project.replace(&film, &format!("{}\n", encoded(record)));
+        fixture.write(name, text);
+        fixture.run(&["check", name, "--samples", "3", "--prove", "--json"])
+    };
+    let expected = report("good.morph", &record);
+    assert_eq!(expected.code, Some(0), "{expected:?}");
+    assert_eq!(expected.stderr, "");
+    for (name, record) in [
+        ("guard-1e10.morph", guard(1e10)),
+        ("guard-1e17.morph", guard(1e17)),
+        ("guard-1e30.morph", guard(1e30)),
+        ("far.morph", scaled([1e12, 1e12])),
+        ("flat.morph", scaled([0.5, 0.2])),
+    ] {
+        let output = report(name, &record);
+        assert_eq!(output.code, Some(0), "{name}: {output:?}");
+        assert!(output.stderr.contains("match"), "{name}: {output:?}");
+        let measures = |text: &str| {
+            let report: Value = serde_json::from_str(text).expect("JSON");
+            report["frames"].clone()
+        };
+        assert_eq!(
+            measures(&output.stdout),
+            measures(&expected.stdout),
+            "{name}"
+        );
+        let picture = format!("{name}.svg");
+        let output = fixture.run(&["render", name, "--at", "0.5", "--out", &picture]);
+        assert_eq!(output.code, Some(0), "{name}: {output:?}");
+        assert!(fixture.path(&picture).exists());
+    }
+}
