@@ -106,8 +106,8 @@ pub enum LaunchOutcome {
 /// Parses the command line (program name first) and runs the subcommand, if there is one.
 ///
 /// Does not open the window: the caller does, if [`LaunchOutcome::Window`] is returned. On Unix,
-/// blocks SIGXFSZ for this thread and those that it starts, so that a limit on the size of files
-/// is an error of writing instead of the end of the program.
+/// blocks SIGXFSZ in this thread and all threads it starts, so that exceeding the file-size limit
+/// (`ulimit -f`) is a write error and does not kill the program.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> LaunchOutcome {
     #[cfg(unix)]
     terminal::block_file_size_signal();

@@ -1,5 +1,5 @@
-//! File input and output: atomic writes, bounded reads, identity of files, portable file names,
-//! escaping of text from files so that it is safe to display, and of text for the formats that are written.
+//! File input and output: atomic writes, bounded reads, identity of files, portable file names, paths
+//! in text files, and escaping of text for display and for each file format.
 
 pub(crate) mod atomic_file;
 pub(crate) mod escape;

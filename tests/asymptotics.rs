@@ -3,7 +3,7 @@
 //! n is the number of holes, of separate polygons, of nested rings, of dashes, of letters or of
 //! pieces into which a star cuts itself, a fifth of the number of bars, or a tenth of the number of
 //! points of an outline. The time grows at most as n² log n, and the memory stays below 1 GiB.
-//! With `--release`, sizes are larger. `cargo test --release --test asymptotics -- --nocapture
+//! Without `--release`, only the quick families run, and only up to n = 40. `cargo test --release --test asymptotics -- --nocapture
 //! --test-threads 1` prints the measured times.
 
 #![expect(clippy::print_stdout, reason = "measured times are printed")]
@@ -233,7 +233,7 @@ fn time_for_letters_grows_at_most_quadratically() {
 #[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_noisy_outlines_grows_at_most_quadratically_in_their_points() {
     assert_slow_growth("noisy outline", |n| {
-        // Digits of the golden ratio's multiples are spread evenly without a pattern.
+        // The fractional parts of k² · 0.618… are spread evenly and look like noise (Weyl, 1916).
         closed_curve(10 * n, |k| 8.0 + (f64::from(k * k) * 0.618_034).fract())
     });
 }

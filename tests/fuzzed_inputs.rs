@@ -12,15 +12,19 @@ mod random;
 use morphospace::project::gallery;
 use random::SeededRandom;
 
-/// Number of inputs of each kind in a run that includes ignored tests, as a multiple of those in
-/// another run.
-const MORE: u64 = 50;
+/// Factor by which the ignored test checks more inputs of each kind (resource limit: minutes in an
+/// optimised build).
+const IGNORED_TEST_FACTOR: u64 = 50;
 
-/// Changes up to `count` bytes of an input, mostly at its start, where the tables of files are.
+/// Number of bytes at the start in which the tables of a font lie (heuristic).
+const HEADER_BYTES: usize = 1000;
+
+/// Changes up to `count` + 1 bytes, half of them among the first [`HEADER_BYTES`], and cuts off the
+/// end of one input in eight.
 fn mutated(random: &mut SeededRandom, bytes: &[u8], count: usize) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     for _ in 0..=random.below(count) {
-        let room = [bytes.len(), bytes.len().min(1000)][random.below(2)];
+        let room = [bytes.len(), bytes.len().min(HEADER_BYTES)][random.below(2)];
         let at = random.below(room);
         bytes[at] = [0, 1, 0x7f, 0xff, random.below(256) as u8][random.below(5)];
     }
@@ -158,8 +162,8 @@ fn random_strokes_and_text_on_paths_give_designs_or_one_line_errors() {
 #[test]
 #[ignore = "50 times as many inputs: minutes even in an optimised build"]
 fn many_mutated_inputs_hold_all_checks() {
-    check_fonts(40 * MORE);
-    check_matches(10 * MORE);
-    check_projects(12 * MORE);
-    check_drawings(30 * MORE);
+    check_fonts(40 * IGNORED_TEST_FACTOR);
+    check_matches(10 * IGNORED_TEST_FACTOR);
+    check_projects(12 * IGNORED_TEST_FACTOR);
+    check_drawings(30 * IGNORED_TEST_FACTOR);
 }

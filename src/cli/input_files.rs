@@ -34,7 +34,8 @@ impl InputFiles {
         })
     }
 
-    /// Checks that no output is one of the files, also by a link or by another spelling.
+    /// Checks that no output is one of these files, even through a link or another spelling of its
+    /// path.
     ///
     /// # Errors
     /// [`CliError::Usage`] names the output and the input.

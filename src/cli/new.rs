@@ -88,7 +88,7 @@ fn write(args: &NewArgs) -> Result<(), CliError> {
         }
     }
     let saved = match args.force {
-        true => loaded.project.save_atomically(&args.out),
+        true => loaded.project.save_atomically(&args.out).map(drop),
         // Another process may have written the file while the designs were read.
         false => loaded.project.save_new(&args.out),
     };

@@ -1,5 +1,5 @@
 //! Progress line on stderr, if stderr is a terminal, and signals: Ctrl-C, SIGTERM and a closed
-//! terminal (SIGHUP) cancel the work; SIGXFSZ becomes an error of writing.
+//! terminal (SIGHUP) cancel the work; SIGXFSZ is blocked.
 
 use std::fs;
 use std::io::{self, IsTerminal, Write};
@@ -65,8 +65,8 @@ impl Terminal {
     }
 }
 
-/// Blocks the signal that ends a program which exceeds the limit on the size of files (`ulimit -f`).
-/// Writing then fails with an error that names the file.
+/// Blocks SIGXFSZ, which kills a program that exceeds the file-size limit (`ulimit -f`). The write
+/// then fails with an error that names the file.
 ///
 /// Must be called before other threads start, because they inherit the blocked signal.
 #[cfg(unix)]

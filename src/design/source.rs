@@ -13,9 +13,9 @@
 //! `glyph:FORM` is written `./glyph:FORM`. The text after `glyph:` is percent-decoded, so
 //! `%40` stands for `@` and `%25` for `%`.
 //!
-//! The words after the first `@` are the path of a font if they contain a dot or a slash, whether
-//! or not such a file exists: a mistyped path is an error, not a text in another font. Otherwise
-//! the `@` belongs to the text.
+//! Text after the first `@` is the path of a font if it contains a dot or a slash, even if no such
+//! file exists. A mistyped path is therefore an error, not a text in another font. Otherwise the
+//! `@` belongs to the text.
 
 use crate::io::path_text::{percent_decoded, rsplit_path_once, split_path_once};
 use crate::io::sanitize::SanitizedName;
@@ -72,38 +72,22 @@ impl DesignSource {
     /// whether a path is an existing file.
     #[must_use]
     pub fn parse(path: &Path, is_file: impl Fn(&Path) -> bool) -> Self {
-        let Some(notation) = path.to_str() else {
-            return Self::parse_bytes(path, is_file);
+        // Splits at the first `@`, because folder names may contain one; in the text it can be
+        // escaped.
+        let (start, font) = match split_path_once(path, b'@') {
+            Some((start, font)) if names_font(&font.to_string_lossy()) => (start, Some(font)),
+            _ => (path.to_owned(), None),
         };
-        if let Some(glyphs) = notation.strip_prefix(GLYPH) {
-            return parse_text(glyphs);
-        }
-        // Splits at the last `#`, because folder names may contain one.
-        match notation.rsplit_once('#') {
-            Some((file, id)) if !file.is_empty() && !id.is_empty() && !is_file(path) => {
-                Self::File {
-                    path: file.into(),
-                    element: Some(id.to_owned()),
-                }
-            }
-            _ => Self::from_file_path(path),
-        }
-    }
-
-    /// Parses a notation that is not UTF-8, because of the name of its file.
-    fn parse_bytes(path: &Path, is_file: impl Fn(&Path) -> bool) -> Self {
-        if let Some((text, font)) = split_path_once(path, b'@')
-            && let Some(text) = text.to_str().and_then(|text| text.strip_prefix(GLYPH))
-            && names_font(&font.to_string_lossy())
-        {
+        if let Some(text) = start.to_str().and_then(|start| start.strip_prefix(GLYPH)) {
             return Self::Text {
                 text: percent_decode(text),
-                font: Some(font),
+                font,
             };
         }
+        // Splits at the last `#`, because folder names may contain one.
         if let Some((file, id)) = rsplit_path_once(path, b'#')
             && let Some(id) = id.to_str().filter(|id| !id.is_empty())
-            && file != Path::new("")
+            && !file.as_os_str().is_empty()
             && !is_file(path)
         {
             return Self::File {
@@ -167,7 +151,13 @@ impl DesignSource {
     pub fn to_path(&self) -> PathBuf {
         match self {
             Self::File { path, element } => {
-                let mut written = path.as_os_str().to_owned();
+                // The start marks the path of a file whose name looks like a text.
+                let is_like_text = path
+                    .as_os_str()
+                    .as_encoded_bytes()
+                    .starts_with(GLYPH.as_bytes());
+                let mut written = OsString::from(if is_like_text { "./" } else { "" });
+                written.push(path);
                 for part in element.iter().flat_map(|id| ["#", id]) {
                     written.push(part);
                 }
@@ -177,7 +167,9 @@ impl DesignSource {
                 let escaped = text.replace('%', "%25").replace('@', "%40");
                 let mut written = OsString::from(format!("{GLYPH}{escaped}"));
                 if let Some(font) = font {
-                    written.push("@");
+                    // The start marks a name without a dot as the path of a font.
+                    let is_marked = names_font(&font.to_string_lossy());
+                    written.push(if is_marked { "@" } else { "@./" });
                     written.push(font);
                 }
                 written.into()
@@ -186,22 +178,9 @@ impl DesignSource {
     }
 }
 
-/// Parses the notation after `glyph:`: the text and, if given, the font.
-fn parse_text(written: &str) -> DesignSource {
-    // Splits at the first `@`, because folder names may contain one; in the text it can be escaped.
-    let (text, font) = match written.split_once('@') {
-        Some((text, font)) if names_font(font) => (text, Some(font.into())),
-        _ => (written, None),
-    };
-    DesignSource::Text {
-        text: percent_decode(text),
-        font,
-    }
-}
-
-/// Returns whether the words after an `@` are the path of a font.
-fn names_font(words: &str) -> bool {
-    words.contains(['.', '/', '\\'])
+/// Returns whether the text after an `@` is the path of a font.
+fn names_font(after_at: &str) -> bool {
+    after_at.contains(['.', '/', '\\'])
 }
 
 /// Decodes percent-encoding. Invalid codes stay as they are, and so does the whole text if
@@ -234,6 +213,15 @@ mod tests {
     }
 
     #[test]
+    fn paths_that_look_like_texts_keep_their_meaning() {
+        for source in [text("D", Some("serif")), file("glyph:x", None)] {
+            let again = parsed(source.to_path().to_str().expect("text"));
+            let file = again.file().expect("a file").strip_prefix(".");
+            assert_eq!(file.ok(), source.file(), "{again:?}");
+        }
+    }
+
+    #[test]
     fn notation_round_trips() {
         for (written, source) in [
             ("a.svg", file("a.svg", None)),
@@ -250,6 +238,7 @@ mod tests {
             ("glyph:D@a@b/y.OTF", text("D", Some("a@b/y.OTF"))),
             ("glyph:D@y.tff", text("D", Some("y.tff"))),
             ("glyph:D@fonts/y", text("D", Some("fonts/y"))),
+            ("glyph:D@./y", text("D", Some("./y"))),
             ("glyph:a@b", text("a@b", None)),
             ("glyph:a%40b.com", text("a@b.com", None)),
             ("glyph:%40@y.ttf", text("@", Some("y.ttf"))),

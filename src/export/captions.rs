@@ -43,10 +43,10 @@ impl Captions {
         designs: impl IntoIterator<Item = &'a str>,
         ground: Rgb,
     ) -> Self {
-        let named = stops.iter().filter(|stop| !stop.name.is_empty());
-        let mut names: Vec<(f64, String)> = named
-            .map(|s| (s.t, without_direction_controls(&s.name)))
-            .collect();
+        let named = stops
+            .iter()
+            .map(|stop| (stop.t, without_direction_controls(&stop.name)));
+        let mut names: Vec<(f64, String)> = named.filter(|(_, name)| !name.is_empty()).collect();
         if names.is_empty() {
             let designs = designs.into_iter().enumerate();
             names = designs

@@ -1,14 +1,14 @@
 //! Named export settings for films, stored in a TOML file of the user.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use super::layout::{Aspect, PictureLayout};
 use super::target::FilmKind;
-use crate::io::atomic_file::AtomicFile;
+use crate::io::atomic_file;
 use crate::io::path_text;
 use crate::io::read::{self, ReadError};
 
@@ -89,7 +89,10 @@ impl FilmPresets {
     /// If the file cannot be read or parsed.
     pub fn read(path: &Path) -> io::Result<Self> {
         match read::read(path) {
-            Ok(bytes) => toml::from_slice(&bytes).map_err(io::Error::other),
+            Ok(bytes) => {
+                let text = String::from_utf8(bytes).map_err(io::Error::other)?;
+                Self::parse(&text).map_err(io::Error::other)
+            }
             Err(ReadError::Missing) => Ok(Self::default()),
             Err(error) => Err(io::Error::other(error)),
         }
@@ -104,9 +107,7 @@ impl FilmPresets {
             std::fs::create_dir_all(folder)?;
         }
         let text = toml::to_string(self).map_err(io::Error::other)?;
-        let mut file = AtomicFile::create(path)?;
-        file.file_mut().write_all(text.as_bytes())?;
-        file.commit()
+        atomic_file::write(path, text.as_bytes())
     }
 }
 

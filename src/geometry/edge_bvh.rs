@@ -14,7 +14,7 @@ use super::{Bounds, DVec2, ray_hit_parameter, ring_edges};
 const LEAF_EDGES: usize = 8;
 
 /// Padding of the boxes, as a fraction of the diameter of all edges (tolerance: far above the
-/// rounding of a ray's hit, far below the size of an edge).
+/// rounding of a ray's hit; larger boxes would only cost time).
 const PADDING: f64 = 1e-9;
 
 /// Edges of closed polygons with a hierarchy of boxes.

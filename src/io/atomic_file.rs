@@ -5,7 +5,9 @@
 //! Dropping an uncommitted [`AtomicFile`] removes the temporary file. A killed process may leave
 //! its temporary file behind; the next write into that folder removes it. The new file gets the
 //! permissions of the file that it replaces. Devices, pipes and folders are never replaced. A
-//! symbolic link stays, and the file to which it leads is replaced or created.
+//! symbolic link stays, and the file to which it leads is replaced or created. Exception: without
+//! hard links, as on FAT, a file that must be new is first created empty to reserve its name; a
+//! process killed at that moment leaves the empty file.
 
 mod leftovers;
 mod refusal;
@@ -14,6 +16,8 @@ use std::fs::{self, File, Metadata};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
+#[cfg(feature = "app")]
+pub(crate) use leftovers::is_at;
 pub(crate) use leftovers::remove_leftovers;
 #[cfg(feature = "cli")]
 pub(crate) use leftovers::{remove_unowned, try_lock};
@@ -97,8 +101,14 @@ impl AtomicFile {
     /// it at the same moment.
     pub(crate) fn commit_new(self) -> io::Result<()> {
         self.file.sync_all()?;
-        // Dropping `self` removes the temporary name.
-        place_new(&self.temporary, &self.path)
+        // A hard link never overwrites. Dropping `self` removes the temporary name.
+        match fs::hard_link(&self.temporary, &self.path) {
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
+                drop(File::create_new(&self.path)?); // reserves the name
+                self.commit()
+            }
+            linked => linked,
+        }
     }
 }
 
@@ -181,6 +191,7 @@ fn filled(mut file: AtomicFile, bytes: &[u8]) -> io::Result<AtomicFile> {
 
 /// Gives a finished file a second name, or copies it where that is impossible, as between two
 /// disks. Never replaces a file.
+#[cfg(feature = "app")]
 pub(crate) fn place_new(source: &Path, path: &Path) -> io::Result<()> {
     // A hard link never overwrites, and the file is complete from its first moment.
     match fs::hard_link(source, path) {
@@ -190,6 +201,7 @@ pub(crate) fn place_new(source: &Path, path: &Path) -> io::Result<()> {
 }
 
 /// Copies a file to a new path, for other disks and for file systems without hard links.
+#[cfg(feature = "app")]
 pub(crate) fn copy_new(source: &Path, path: &Path) -> io::Result<()> {
     // Reserves the name; the content then replaces the empty file in one step.
     drop(File::create_new(path)?);
@@ -199,6 +211,7 @@ pub(crate) fn copy_new(source: &Path, path: &Path) -> io::Result<()> {
 }
 
 /// Copies a file to a path in one step; an existing file there is replaced.
+#[cfg(feature = "app")]
 pub(crate) fn copy_over(source: &Path, path: &Path) -> io::Result<()> {
     let mut file = AtomicFile::create(path)?;
     io::copy(&mut File::open(source)?, file.file_mut())?;
@@ -252,6 +265,7 @@ mod tests {
         let error = second.expect_err("the name is in use");
         assert_eq!(error.kind(), io::ErrorKind::AlreadyExists);
         assert_eq!(fs::read(&path).expect("read"), b"first");
+        #[cfg(feature = "app")]
         assert!(copy_new(&path, &path).is_err());
         assert_eq!(fs::read_dir(&folder).expect("listed").count(), 1);
     }

@@ -5,9 +5,9 @@
 //! is one function or wrapper for each format, and every writer of the format uses it.
 //!
 //! Guarantees: the text cannot end the place in which it is written, and the file stays
-//! well-formed. [`json_text`] and [`XmlEscaped`] keep all visible characters. Characters that control
-//! the writing direction are removed from all names, so that no name looks like another one or
-//! changes the order of the text around it.
+//! well-formed. [`json_text`] and [`XmlEscaped`] keep all visible characters. XML, JSON and DXF text
+//! loses the characters that control the writing direction, so that a name cannot reorder the text
+//! around it. The caller removes them from CSV cells ([`SanitizedName`](super::sanitize::SanitizedName)).
 
 use std::fmt::{self, Write};
 
@@ -120,9 +120,9 @@ const MAX_DXF_NAME: usize = 255;
 /// Name of a layer, block or style, escaped for a DXF document.
 ///
 /// Characters that the format forbids in names, and control characters, which end a line, become
-/// underscores; those that control the writing direction are removed. Characters beyond ASCII are written as `\U+XXXX`, which readers of all versions
-/// decode, whatever the code page. Longer names are cut after [`MAX_DXF_NAME`] characters. An empty
-/// name becomes an underscore.
+/// underscores; those that control the writing direction are removed. Characters beyond ASCII are
+/// written as `\U+XXXX`, which readers of all versions decode, whatever the code page. Longer names
+/// are cut after [`MAX_DXF_NAME`] characters. An empty name becomes an underscore.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DxfName<'a>(pub &'a str);
 

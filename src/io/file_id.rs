@@ -5,8 +5,8 @@
 
 use std::path::Path;
 
-/// Identity of an existing file or folder: on Unix its device and its number there, on other systems
-/// its path without links in the spelling of the file system.
+/// Identity of an existing file or folder: on Unix its device and inode numbers, elsewhere its
+/// canonical path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct FileId(
     #[cfg(unix)] (u64, u64),

@@ -4,10 +4,14 @@
 /// number and an extension).
 const MAX_BYTES: usize = 240;
 
+/// Maximum number of characters of a name (resource limit: [`MAX_BYTES`] in scripts with three bytes
+/// per letter).
+const MAX_LETTERS: usize = 80;
+
 /// Returns `name` with every character except letters, digits and `-_. ,()+&` replaced by `-`, and
 /// without dots and spaces at both ends.
 ///
-/// The result has at most 80 characters and [`MAX_BYTES`]. An empty result becomes `untitled`.
+/// The result has at most [`MAX_LETTERS`] and [`MAX_BYTES`]. An empty result becomes `untitled`.
 #[must_use]
 pub fn safe_file_name(name: &str) -> String {
     let replace = |c: char| {
@@ -17,7 +21,7 @@ pub fn safe_file_name(name: &str) -> String {
             '-'
         }
     };
-    let mut replaced: String = name.chars().take(80).map(replace).collect();
+    let mut replaced: String = name.chars().take(MAX_LETTERS).map(replace).collect();
     replaced.truncate(replaced.floor_char_boundary(MAX_BYTES));
     // A leading dot hides a file on Unix. Windows drops trailing dots and spaces.
     let trimmed = replaced.trim_matches(|c| c == '.' || c == ' ');

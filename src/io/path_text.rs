@@ -1,9 +1,10 @@
 //! Paths in text files, such as projects, autosaves and lists of recent files.
 //!
-//! A path is written as it is if it is UTF-8. Any other path is written as `file:`, followed by the
-//! path with `%` and each byte that is not UTF-8 percent-encoded: `file:caf%E9.svg`. Text that
-//! starts with `file:` is decoded only if the result could not be written as it is, so that files
-//! written before this form existed keep their meaning.
+//! A UTF-8 path is written unchanged. Any other path is written as `file:` followed by the path, with
+//! `%` and each byte that is not UTF-8 percent-encoded: `file:caf%E9.svg`. Text after `file:` is
+//! decoded only if the result is not UTF-8 or starts with `file:` again. Paths in older files
+//! therefore keep their meaning, except for paths such as `file:%FF` and `file:file:a`; these are
+//! now written encoded.
 //!
 //! Guarantees: reading a written path gives the same path. Outside Unix, where paths have no bytes,
 //! a path that is not UTF-8 cannot be written.

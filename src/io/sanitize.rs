@@ -5,8 +5,8 @@
 //! second time, which changes nothing.
 //!
 //! The result has no line breaks, no control characters and no characters that override the
-//! writing direction; they are escaped as in Rust (`\n`, `\u{1b}`). From names and titles, those
-//! that change the direction are removed instead ([`SanitizedName`]). Text longer than
+//! writing direction; they are escaped as in Rust (`\n`, `\u{1b}`). From names and titles, direction
+//! controls are removed instead ([`SanitizedName`]). Text longer than
 //! [`MAX_CHARS`] loses its middle, because messages name the file at the start and the remedy at
 //! the end. Escaping is not reversible: backslashes are not escaped.
 
@@ -38,8 +38,8 @@ impl<T: fmt::Display> fmt::Display for SanitizedLine<T> {
     }
 }
 
-/// Wrapper whose `Display` writes a name or a title as one line, without characters that control the
-/// writing direction. Names in scripts from right to left contain such characters legitimately, so
+/// Wrapper whose `Display` writes a name or a title as one line, without characters that control
+/// the writing direction. Names in scripts from right to left contain such characters legitimately, so
 /// escape sequences would make them hard to read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SanitizedName<'a>(pub &'a str);

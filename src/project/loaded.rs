@@ -571,8 +571,9 @@ fn placed_part_times(parts: &[PartTime], similarities: &[Similarity; 2]) -> Vec<
 /// Reads a design and gives it the name from the project, if there is one.
 fn read_named(entry: &DesignEntry, folder: Option<&Path>) -> Result<Arc<Design>, ProjectError> {
     let mut design = read(entry, folder)?;
-    if !entry.name.is_empty() {
-        design.name = SanitizedName(&entry.name).to_string();
+    let name = SanitizedName(&entry.name).to_string();
+    if !name.trim().is_empty() {
+        design.name = name;
     }
     Ok(Arc::new(design))
 }

@@ -126,12 +126,14 @@ impl Project {
     }
 
     /// Writes the project atomically: the old file stays intact until the new one is complete.
+    /// Returns the [`Self::file_hash`] of the written file.
     ///
     /// # Errors
     /// [`ProjectError`] names the file; the old file is untouched.
-    pub fn save_atomically(&self, path: &Path) -> Result<(), ProjectError> {
+    pub fn save_atomically(&self, path: &Path) -> Result<u64, ProjectError> {
         let text = self.to_toml()?;
-        atomic_file::write(path, text.as_bytes()).map_err(|error| unwritable(path, &error))
+        atomic_file::write(path, text.as_bytes()).map_err(|error| unwritable(path, &error))?;
+        Ok(Self::file_hash(text.as_bytes()))
     }
 
     /// Like [`Self::save_atomically`], but never replaces a file, even one that another process

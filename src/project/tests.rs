@@ -341,7 +341,7 @@ fn fonts_are_found_relative_to_the_project_file() {
 
 #[cfg(unix)]
 #[test]
-fn names_of_files_that_are_no_text_are_saved_and_opened() {
+fn designs_with_non_utf8_names_are_saved_and_opened() {
     use std::os::unix::ffi::OsStrExt;
     let folder = tempfile::tempdir().unwrap();
     let name = |bytes: &[u8]| Path::new(std::ffi::OsStr::from_bytes(bytes)).to_owned();

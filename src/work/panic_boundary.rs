@@ -1,5 +1,5 @@
-//! Turns panics into errors. The decoders of pictures, fonts and drawings come from many libraries,
-//! and neither a damaged file nor a pair of designs in a table may end the program.
+//! Turns panics into errors. Decoders of pictures, fonts and drawings come from many libraries. A
+//! damaged file must not end the program, and a failing pair must not end a run over many pairs.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -14,7 +14,7 @@ thread_local! {
 /// Runs `work` and returns its result, or the message of its panic. The first call replaces the
 /// panic hook of the process by one that calls the previous hook, except for panics in `work`.
 ///
-/// The caller must not use data that `work` changes in place after a panic.
+/// After a panic, the caller must not use data that `work` was changing.
 pub(crate) fn catch_panic<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {

@@ -131,7 +131,7 @@ fn a_catalogue_never_writes_over_the_designs() {
 }
 
 #[test]
-fn of_ten_new_projects_with_one_name_one_is_written() {
+fn only_one_of_ten_concurrent_new_commands_writes_the_file() {
     let cli = CliFixture::new();
     for attempt in 0..5 {
         let line = format!("new a.svg b.svg --out p{attempt}.morph");

@@ -7,10 +7,10 @@ use morphospace::transition::BuildQuality;
 use morphospace::work::progress::Progress;
 use std::time::{Duration, Instant};
 
-/// Width or height of the frames in pixels.
+/// Longer side of the frames, in pixels (resource limit: frames are drawn for each input).
 const SIZE_PX: u32 = 24;
 
-/// Progress of work that is cancelled at a moment.
+/// Progress that cancels the work after a deadline.
 struct Deadline(Instant);
 
 impl Progress for Deadline {
@@ -35,7 +35,8 @@ pub fn check_project(text: &str) {
 
 fn drawn(text: &str) -> Result<(), ProjectError> {
     let mut project = Project::parse(text)?;
-    // The best quality is no other code, only more of it.
+    // Best quality often takes longer than the deadline. The search for positions and the proof of
+    // collisions, which run only there, are not tested here.
     project.options.quality = BuildQuality::Draft;
     // Without a folder, paths lead to designs in memory, and none is opened.
     let loaded = LoadedProject::load(project, None)?;

@@ -46,9 +46,9 @@ pub(in crate::cli) struct PairBatchArgs {
     #[arg(long, value_name = "FILE.csv", required = false, requires = "out")]
     pairs: PathBuf,
 
-    /// With --pairs: file for the report, with a row for each pair; until all pairs are measured,
-    /// finished rows are saved in FILE.partial.csv; that of an interrupted run stays until a run
-    /// with the same FILE is finished
+    /// With --pairs: report file, with one row per pair. Finished rows are saved in
+    /// FILE.partial.csv until all pairs are measured. After an interrupted run, that file stays
+    /// until a run with the same FILE finishes
     #[arg(long, value_name = "FILE.csv", required = false, requires = "pairs")]
     out: PathBuf,
 
@@ -112,7 +112,8 @@ impl PairBatchArgs {
         self.check_output_paths()?;
         let outputs = || std::iter::once(&self.out).chain(&self.sheet);
         let inputs = InputFiles::default().with_file(&self.pairs);
-        // The table is compared first, because it may be no table any more if it was an output.
+        // The table is checked before it is parsed, because an earlier run may already have
+        // overwritten it.
         inputs.check_outputs(outputs())?;
         let table = table::read(&self.pairs)
             .map_err(|error| CliError::Failed(format!("`{}`: {error}", self.pairs.display())))?;
@@ -161,7 +162,7 @@ impl PairBatchArgs {
         let removed = partial.finish(&self.out).map_err(CliError::failed)?;
         let remark = removed.iter().map(|path| {
             let path = path.display();
-            format!(" (and removed `{path}`, which an interrupted run had left)")
+            format!(" (and removed `{path}`, left by an interrupted run)")
         });
         let mut written = vec![self.out.display().to_string() + &remark.collect::<String>()];
         if let Some((kind, path)) = sheet {

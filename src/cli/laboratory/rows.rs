@@ -3,8 +3,8 @@
 //! As soon as a pair is measured, its row is written to `report.partial.csv` next to `report.csv`,
 //! so finished work is not lost if the program is interrupted. The file contains complete rows
 //! only, in the order in which they were finished. An existing file of this name is not replaced;
-//! the next one gets a number. Once a run has written the report, it removes its own file and those
-//! of interrupted runs, but not those of running ones.
+//! the next one gets a number. After writing the report, a run deletes its own partial table and
+//! those of interrupted runs. Partial tables of running runs stay.
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
@@ -117,11 +117,11 @@ impl PartialTable {
         saved.count
     }
 
-    /// Deletes the file, because `report` has been written, and the files that interrupted runs
-    /// left next to it. Returns the paths of the latter.
+    /// Deletes this run's file after `report` was written, and the partial tables of interrupted
+    /// runs. Returns the paths of the latter.
     ///
     /// # Errors
-    /// The own file cannot be deleted.
+    /// This run's file cannot be deleted.
     pub fn finish(self, report: &Path) -> io::Result<Vec<PathBuf>> {
         let mut left = interrupted_tables(report);
         left.retain(|path| *path != self.path);

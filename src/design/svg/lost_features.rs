@@ -1,7 +1,7 @@
 //! Collects the features of a drawing that were ignored or replaced.
 
 use crate::design::note::ImportNote;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use usvg::roxmltree::Node as Xml;
 
@@ -22,18 +22,15 @@ type FeatureTreatment = (String, Option<&'static str>);
 #[derive(Debug, Default)]
 pub(super) struct LostFeatures {
     features: BTreeMap<FeatureTreatment, LosingElements>,
-    /// For each element, by the hash of its description, the bits of the features that it uses.
-    users: HashMap<u64, u128>,
 }
 
 /// Elements that use a feature.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct LosingElements {
-    /// The feature's bit in [`LostFeatures::users`].
-    bit: u128,
     /// Descriptions of the first elements, each once.
     named: Vec<String>,
-    count: usize,
+    /// Hashes of the descriptions of all elements.
+    hashes: HashSet<u64>,
 }
 
 impl LostFeatures {
@@ -48,8 +45,8 @@ impl LostFeatures {
     }
 
     fn add(&mut self, treatment: FeatureTreatment, element: &str) {
-        let elements = elements_of(&mut self.features, treatment);
-        let is_new = elements.count_user(&mut self.users, hash_of(element));
+        let elements = self.elements_of(treatment);
+        let is_new = elements.hashes.insert(hash_of(element));
         if is_new && elements.named.len() < NAMED_ELEMENTS {
             elements.named.push(element.to_owned());
         }
@@ -58,17 +55,25 @@ impl LostFeatures {
     /// Adds the features of another list.
     pub(super) fn extend(&mut self, other: Self) {
         for (treatment, lost) in other.features {
-            let elements = elements_of(&mut self.features, treatment);
+            let elements = self.elements_of(treatment);
             for name in lost.named {
                 if elements.named.len() < NAMED_ELEMENTS && !elements.named.contains(&name) {
                     elements.named.push(name);
                 }
             }
-            let users = other.users.iter().filter(|user| user.1 & lost.bit != 0);
-            for (&hash, _) in users {
-                elements.count_user(&mut self.users, hash);
-            }
+            elements.hashes.extend(lost.hashes);
         }
+    }
+
+    /// Returns the elements that use a feature. If the list is full, returns those of all features
+    /// that are not in it.
+    fn elements_of(&mut self, treatment: FeatureTreatment) -> &mut LosingElements {
+        let has_room = self.features.len() < MAX_FEATURES;
+        let treatment = match has_room || self.features.contains_key(&treatment) {
+            true => treatment,
+            false => ("other features".to_owned(), None),
+        };
+        self.features.entry(treatment).or_default()
     }
 
     /// Returns one note for each feature and replacement.
@@ -80,43 +85,10 @@ impl LostFeatures {
                     feature,
                     replacement: replacement.map(str::to_owned),
                     elements: elements.named,
-                    count: elements.count,
+                    count: elements.hashes.len(),
                 },
             )
     }
-}
-
-impl LosingElements {
-    /// Counts an element, given by its hash; returns whether it was not counted before.
-    fn count_user(&mut self, users: &mut HashMap<u64, u128>, hash: u64) -> bool {
-        let bits = users.entry(hash).or_default();
-        let is_new = *bits & self.bit == 0;
-        *bits |= self.bit;
-        self.count += usize::from(is_new);
-        is_new
-    }
-}
-
-/// Returns the elements that use a feature, in the list of all features. If the list is full, those
-/// of all features that are not in it.
-fn elements_of(
-    features: &mut BTreeMap<FeatureTreatment, LosingElements>,
-    treatment: FeatureTreatment,
-) -> &mut LosingElements {
-    // With the entry for all others, there are at most `MAX_FEATURES` + 1 features, one for each
-    // bit.
-    const { assert!(MAX_FEATURES < u128::BITS as usize) };
-    let count = features.len();
-    let is_known = features.contains_key(&treatment);
-    let treatment = match is_known || count < MAX_FEATURES {
-        true => treatment,
-        false => ("other features".to_owned(), None),
-    };
-    features.entry(treatment).or_insert_with(|| LosingElements {
-        bit: 1 << count,
-        named: Vec::new(),
-        count: 0,
-    })
 }
 
 fn hash_of(element: &str) -> u64 {

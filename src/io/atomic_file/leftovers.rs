@@ -45,7 +45,8 @@ pub(super) fn create_temporary(path: &Path, folder: &Path) -> io::Result<(File, 
     Err(io::ErrorKind::AlreadyExists.into())
 }
 
-/// Locks a new file as long as it is open. Returns `false` if another process is removing the file or has removed it.
+/// Locks a new file until it is closed. Returns `false` if another process is removing it or has
+/// removed it.
 #[cfg(unix)]
 pub(crate) fn try_lock(file: &File) -> io::Result<bool> {
     use std::fs::TryLockError;
@@ -95,10 +96,10 @@ pub(crate) fn remove_unowned(path: &Path) -> bool {
     false
 }
 
-/// Removes a file; without file locks, also one that a running process uses.
+/// Removes nothing: without file locks, a running process may use the file.
 #[cfg(all(not(unix), feature = "cli"))]
-pub(crate) fn remove_unowned(path: &Path) -> bool {
-    std::fs::remove_file(path).is_ok()
+pub(crate) fn remove_unowned(_: &Path) -> bool {
+    false
 }
 
 /// Opens a file so that it can be locked; network file systems require write access for that.
@@ -114,9 +115,16 @@ fn open_for_lock(path: &Path) -> io::Result<File> {
 /// Before the file was locked, its owner may have renamed it, and another file may have taken the
 /// path.
 #[cfg(unix)]
-fn is_at(file: &File, path: &Path) -> bool {
+pub(crate) fn is_at(file: &File, path: &Path) -> bool {
     let locked = file.metadata().ok();
     locked.is_some_and(|locked| FileId::of(path) == Some(FileId::of_metadata(&locked)))
+}
+
+/// Returns whether `path` leads to a file: where open files cannot be identified, `file` is assumed
+/// to be still there.
+#[cfg(all(not(unix), feature = "app"))]
+pub(crate) fn is_at(_: &File, path: &Path) -> bool {
+    path.is_file()
 }
 
 #[cfg(not(unix))]

@@ -57,11 +57,11 @@ impl<'e> Bisection<'e> {
         }
     }
 
-    /// Counts an undecided part of the interval; returns whether no further part may be examined.
-    pub(super) fn exhausts_parts(&self) -> bool {
-        let left = self.parts_left.get().saturating_sub(1);
-        self.parts_left.set(left);
-        left == 0
+    /// Uses up one part; returns whether there was one left.
+    pub(super) fn try_use_part(&self) -> bool {
+        let left = self.parts_left.get();
+        self.parts_left.set(left.saturating_sub(1));
+        left > 0
     }
 }
 
@@ -83,10 +83,10 @@ mod tests {
     fn a_bisection_ends_after_its_parts() {
         let earliest = EarliestFailure::default();
         let search = Bisection::new(&earliest);
-        let parts = (1..).take_while(|_| !search.exhausts_parts()).count();
-        assert_eq!(parts, MAX_PARTS as usize - 1);
-        assert!(search.exhausts_parts(), "the end is final");
+        let parts = (1..).take_while(|_| search.try_use_part()).count();
+        assert_eq!(parts, MAX_PARTS as usize);
+        assert!(!search.try_use_part(), "the end is final");
         let other = Bisection::new(&earliest);
-        assert!(!other.exhausts_parts(), "each face has its own parts");
+        assert!(other.try_use_part(), "each face has its own parts");
     }
 }

@@ -94,7 +94,7 @@ pub(super) fn first_not_positive(
     if search.earliest.is_before(from) || of.is_positive(ends) {
         return None;
     }
-    if ends[0] == EndSign::NotPositive || halvings == 0 || search.exhausts_parts() {
+    if ends[0] == EndSign::NotPositive || halvings == 0 || !search.try_use_part() {
         return Some(search.earliest.report(from));
     }
     let middle = from.midpoint(to);

@@ -351,7 +351,7 @@ impl<'a> MeetingSearch<'a> {
         if self.is_apart([a, b, p], at_ends) {
             return None;
         }
-        if halvings == 0 || search.exhausts_parts() {
+        if halvings == 0 || !search.try_use_part() {
             return Some(search.earliest.report(from));
         }
         let middle = from.midpoint(to);
