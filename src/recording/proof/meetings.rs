@@ -10,7 +10,7 @@ use super::bernstein::{BernsteinProducts, EndSign};
 use super::bisection::{Bisection, EarliestFailure, MAX_HALVINGS};
 use super::drawn_loop::DrawnLoop;
 use super::folds::{product, twice_area};
-use super::vertex_curve::{IntervalCurves, VertexCurve};
+use super::vertex_curve::{IntervalCurves, VertexCurve, subtract_common_motion};
 use crate::geometry::{DVec2, EdgeCrossing, crossings, orient2d};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
@@ -77,6 +77,7 @@ pub(super) fn first_meeting(
         .par_iter()
         .map(|&v| curves.curve(v as usize))
         .collect();
+    let common_motion = subtract_common_motion(&mut remaining);
     let mut found = IntervalMeetings::default();
     let mut from = 0.0;
     for to in piece_ends(at_ends, curves.length()) {
@@ -108,7 +109,9 @@ pub(super) fn first_meeting(
         }
         from = to;
     }
-    if let Some((_, vertex, edge, _)) = &mut found.first {
+    if let Some((s, vertex, edge, place)) = &mut found.first {
+        let [_, after] = common_motion.cut(*s);
+        *place += after.control_points[0];
         *vertex = vertices[*vertex as usize];
         *edge = edge.map(|v| vertices[v as usize]);
     }

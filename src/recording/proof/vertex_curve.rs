@@ -102,3 +102,65 @@ impl VertexCurve {
         [min - self.error, max + self.error]
     }
 }
+
+/// Subtracts a motion that all curves have in common, and returns it. The boxes of the curves are
+/// then as small as if the whole drawing did not travel.
+///
+/// A coordinate of the control points with one index is changed only if it is far from zero on all
+/// curves. The subtraction x − m is then exact, since m / 2 ≤ x ≤ 2 m (P. H. Sterbenz,
+/// Floating-Point Computation, 1974, theorem 4.3.1).
+pub(super) fn subtract_common_motion(curves: &mut [VertexCurve]) -> VertexCurve {
+    let count = curves.first().map_or(1, |curve| curve.control_points.len());
+    let common = |values: &mut dyn Iterator<Item = f64>| -> f64 {
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let (min, max) = values.fold(none, |(min, max), x| (min.min(x), max.max(x)));
+        match (min > 0.0 && max <= 2.0 * min) || (max < 0.0 && min >= 2.0 * max) {
+            true => min.midpoint(max),
+            false => 0.0,
+        }
+    };
+    let control_points = (0..count).map(|k| {
+        let point = |curve: &VertexCurve| curve.control_points[k];
+        let shift = DVec2::new(
+            common(&mut curves.iter().map(|curve| point(curve).x)),
+            common(&mut curves.iter().map(|curve| point(curve).y)),
+        );
+        for curve in &mut *curves {
+            curve.control_points[k] -= shift;
+        }
+        shift
+    });
+    VertexCurve {
+        control_points: control_points.collect(),
+        error: 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_common_motion_is_subtracted_exactly() {
+        let curve = |offset: f64| VertexCurve {
+            control_points: [0.0, -3e8, 1e9]
+                .map(|travelled| DVec2::new(travelled + offset, 0.1 + offset))
+                .to_vec(),
+            error: 0.0,
+        };
+        let before = [curve(0.0), curve(0.7), curve(-0.3)];
+        let mut after = before.clone();
+        let common = subtract_common_motion(&mut after);
+        for (before, after) in before.iter().zip(&after) {
+            assert_eq!(
+                before.control_points[0], after.control_points[0],
+                "near zero"
+            );
+            for k in 0..3 {
+                let restored = after.control_points[k] + common.control_points[k];
+                assert_eq!(restored, before.control_points[k]);
+                assert!(after.control_points[k].length() < 2.0, "{after:?}");
+            }
+        }
+    }
+}
