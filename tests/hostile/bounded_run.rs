@@ -9,13 +9,38 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-/// Maximum address space of the program, in KiB (resource limit: 1 GiB suffices for opening any
-/// file).
-const MAX_KIB: u64 = 1 << 20;
+/// Limits within which the program runs.
+struct RunLimits {
+    /// Maximum address space, in KiB. About 250 MiB of it are reserved but not used, for the program
+    /// itself, stacks and the allocator.
+    kibibytes: u64,
+    /// Maximum processor time.
+    cpu: Duration,
+    /// Maximum running time.
+    time: Duration,
+}
 
-/// Maximum running time of the program: five times its target of two seconds, since machines may
-/// be busy.
-const TIME_LIMIT: Duration = Duration::from_secs(10);
+/// Limits for any file (resource limits: 1 GiB of used memory suffices for opening any file; the
+/// time is five times the target of two seconds, since machines may be busy).
+const ANY_FILE: RunLimits = RunLimits {
+    kibibytes: 1280 << 10,
+    cpu: Duration::from_secs(180),
+    time: Duration::from_secs(10),
+};
+
+/// Limits for work that is slow without optimisation.
+const LONG: RunLimits = RunLimits {
+    time: Duration::from_secs(90),
+    ..ANY_FILE
+};
+
+/// Limits for small files (resource limits: 500 MB of used memory, and three times the target of 5 s
+/// of processor time, since the tests run with little optimisation).
+const SMALL_FILE: RunLimits = RunLimits {
+    kibibytes: 740 << 10,
+    cpu: Duration::from_secs(15),
+    time: Duration::from_secs(90),
+};
 
 /// A temporary folder in which the program runs; it contains a valid design, `square.json`.
 pub struct BoundedFixture(TempDir);
@@ -43,23 +68,39 @@ impl BoundedFixture {
         fs::write(self.path(name), bytes).expect("written");
     }
 
-    /// Runs the program; panics if it takes longer than [`TIME_LIMIT`].
+    /// Runs the program within the limits for [`ANY_FILE`].
     pub fn run(&self, arguments: &[&str]) -> ProgramOutput {
-        ProgramOutput::new(wait(self.command(arguments), arguments, TIME_LIMIT))
+        self.run_within(&ANY_FILE, arguments)
     }
 
-    /// Runs the program with nine times [`TIME_LIMIT`], for work that is slow without optimisation.
+    /// Runs the program within [`LONG`] limits.
     pub fn run_long(&self, arguments: &[&str]) -> ProgramOutput {
-        ProgramOutput::new(wait(self.command(arguments), arguments, 9 * TIME_LIMIT))
+        self.run_within(&LONG, arguments)
     }
 
-    fn command(&self, arguments: &[&str]) -> Child {
+    /// Runs the program within the limits for a [`SMALL_FILE`].
+    pub fn run_small(&self, arguments: &[&str]) -> ProgramOutput {
+        self.run_within(&SMALL_FILE, arguments)
+    }
+
+    /// Runs the program; panics if it takes longer than the time limit.
+    fn run_within(&self, limits: &RunLimits, arguments: &[&str]) -> ProgramOutput {
+        ProgramOutput::new(wait(
+            self.command(limits, arguments),
+            arguments,
+            limits.time,
+        ))
+    }
+
+    fn command(&self, limits: &RunLimits, arguments: &[&str]) -> Child {
         let program = env!("CARGO_BIN_EXE_morphospace");
         let mut command = match cfg!(unix) {
-            // The shell sets the memory limit and then replaces itself by the program.
+            // The shell sets the limits and then replaces itself by the program.
             true => {
                 let mut shell = Command::new("sh");
-                let limited = format!("ulimit -v {MAX_KIB}; exec \"$0\" \"$@\"");
+                let (kibibytes, seconds) = (limits.kibibytes, limits.cpu.as_secs());
+                let limited =
+                    format!("ulimit -v {kibibytes}; ulimit -t {seconds}; exec \"$0\" \"$@\"");
                 shell.args(["-c", &limited, program]);
                 shell
             }
