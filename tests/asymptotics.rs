@@ -3,8 +3,8 @@
 //! n is the number of holes, of separate polygons, of nested rings, of dashes, of letters or of
 //! pieces into which a star cuts itself, a fifth of the number of bars, or a tenth of the number of
 //! points of an outline. The time grows at most as n² log n, and the memory stays below 1 GiB.
-//! Without `--release`, only the quick families run, and only up to n = 40. `cargo test --release --test asymptotics -- --nocapture
-//! --test-threads 1` prints the measured times.
+//! Without `--release`, n is at most 40. `cargo test --release --no-default-features --features cli
+//! --test asymptotics -- --nocapture --test-threads 1` prints the measured times.
 
 #![expect(clippy::print_stdout, reason = "measured times are printed")]
 
@@ -159,7 +159,6 @@ fn grid_positions(count: u32) -> impl Iterator<Item = DVec2> {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_holes_grows_at_most_quadratically() {
     assert_slow_growth("holes", |n| {
         let sheet = [(0.0, 0.0), (10.0, 0.0), (10.0, 8.0), (0.0, 8.0)].map(DVec2::from);
@@ -169,7 +168,6 @@ fn time_for_holes_grows_at_most_quadratically() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_pieces_grows_at_most_quadratically() {
     assert_slow_growth("pieces", |n| {
         polygons(grid_positions(n).map(|p| regular_polygon(p, 0.3, 6)))
@@ -177,7 +175,6 @@ fn time_for_pieces_grows_at_most_quadratically() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_nested_rings_grows_at_most_quadratically() {
     assert_slow_growth("nested", |n| {
         polygons((1..=n).map(|k| regular_polygon(DVec2::ZERO, f64::from(k), 6)))
@@ -206,7 +203,6 @@ fn time_for_bars_grows_at_most_quadratically() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_dashes_grows_at_most_quadratically() {
     assert_slow_growth("dashes", |n| {
         let dash = TAU * 40.0 / (2.0 * f64::from(n));
@@ -221,7 +217,6 @@ fn time_for_dashes_grows_at_most_quadratically() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_letters_grows_at_most_quadratically() {
     assert_slow_growth("letters", |n| {
         let letters = ('A'..='Z').cycle().take(n as usize);
@@ -230,7 +225,6 @@ fn time_for_letters_grows_at_most_quadratically() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_noisy_outlines_grows_at_most_quadratically_in_their_points() {
     assert_slow_growth("noisy outline", |n| {
         // The fractional parts of k² · 0.618… are spread evenly and look like noise (Weyl, 1916).
@@ -239,7 +233,6 @@ fn time_for_noisy_outlines_grows_at_most_quadratically_in_their_points() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_combs_grows_at_most_quadratically_in_their_points() {
     assert_slow_growth("comb", |n| {
         let tooth = |k: u32| {
@@ -255,7 +248,6 @@ fn time_for_combs_grows_at_most_quadratically_in_their_points() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn time_for_smooth_outlines_grows_at_most_quadratically_in_their_points() {
     assert_slow_growth("smooth outline", |n| {
         let lobes = TAU * 5.0 / f64::from(10 * n);
