@@ -3,7 +3,7 @@
 //! n is the number of holes, of separate polygons, of nested rings, of dashes, of letters or of
 //! pieces into which a star cuts itself, a fifth of the number of bars, or a tenth of the number of
 //! points of an outline. The time grows at most as n² log n, and the memory stays below 1 GiB.
-//! Without `--release`, n is at most 40. `cargo test --release --no-default-features --features cli
+//! Without `--release`, n is at most 40, and dashes and letters are left out. `cargo test --release --no-default-features --features cli
 //! --test asymptotics -- --nocapture --test-threads 1` prints the measured times.
 
 #![expect(clippy::print_stdout, reason = "measured times are printed")]
@@ -203,6 +203,7 @@ fn time_for_bars_grows_at_most_quadratically() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes a minute unless optimised")]
 fn time_for_dashes_grows_at_most_quadratically() {
     assert_slow_growth("dashes", |n| {
         let dash = TAU * 40.0 / (2.0 * f64::from(n));
@@ -217,6 +218,7 @@ fn time_for_dashes_grows_at_most_quadratically() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes a minute unless optimised")]
 fn time_for_letters_grows_at_most_quadratically() {
     assert_slow_growth("letters", |n| {
         let letters = ('A'..='Z').cycle().take(n as usize);

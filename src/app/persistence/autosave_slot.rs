@@ -23,6 +23,10 @@ const MAX_SLOTS: u32 = 64;
 #[cfg(unix)]
 const S_IWOTH: u32 = 0o002;
 
+/// Permission of the group and of other users to write (POSIX: `S_IWGRP` and `S_IWOTH`).
+#[cfg(unix)]
+const OTHERS_MAY_WRITE: u32 = 0o022;
+
 /// Permissions of the group and of other users (POSIX: `S_IRWXG` and `S_IRWXO`).
 #[cfg(unix)]
 const OTHERS_MAY_ACCESS: u32 = 0o077;
@@ -191,22 +195,23 @@ impl Drop for AutosaveSlot {
 ///
 /// # Errors
 /// The folder cannot be created; or all users can write to its parent, as to the folder for
-/// temporary files, and the folder belongs to another user or others may access it.
+/// temporary files, and the folder belongs to another user or others may write to it.
 #[cfg(unix)]
 fn create_private(folder: &Path) -> io::Result<()> {
-    use std::os::unix::fs::{DirBuilderExt, MetadataExt};
+    use std::os::unix::fs::{DirBuilderExt, MetadataExt, PermissionsExt};
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true).mode(0o700).create(folder)?;
     let parent = fs::metadata(folder.parent().unwrap_or(Path::new("/")))?;
     if parent.mode() & S_IWOTH != 0 {
         let data = fs::symlink_metadata(folder)?;
-        let is_private = data.is_dir()
+        let is_own = data.is_dir()
             && data.uid() == nix::unistd::Uid::effective().as_raw()
-            && data.mode() & OTHERS_MAY_ACCESS == 0;
-        if !is_private {
-            return Err(io::Error::other(
-                "other users can read or write this folder",
-            ));
+            && data.mode() & OTHERS_MAY_WRITE == 0;
+        if !is_own {
+            return Err(io::Error::other("other users can write to this folder"));
+        }
+        if data.mode() & OTHERS_MAY_ACCESS != 0 {
+            fs::set_permissions(folder, PermissionsExt::from_mode(0o700))?;
         }
     }
     Ok(())
@@ -271,10 +276,13 @@ mod tests {
         set_mode(parent.path(), 0o1777)?;
         let folder = parent.path().join("autosave");
         assert!(AutosaveSlot::lock_free_slot(&folder).is_ok());
-        for mode in [0o777, 0o770, 0o750] {
+        for mode in [0o777, 0o770] {
             set_mode(&folder, mode)?;
             assert!(AutosaveSlot::lock_free_slot(&folder).is_err(), "{mode:o}");
         }
+        set_mode(&folder, 0o750)?;
+        assert!(AutosaveSlot::lock_free_slot(&folder).is_ok());
+        assert_eq!(fs::metadata(&folder)?.permissions().mode() & 0o777, 0o700);
         let link = parent.path().join("link");
         std::os::unix::fs::symlink(tempfile::tempdir()?.path(), &link)?;
         assert!(AutosaveSlot::lock_free_slot(&link).is_err());
