@@ -262,7 +262,7 @@ fn pipes_and_folders_do_not_block_the_start_and_damaged_autosaves_are_kept() {
     let kept = std::fs::read_to_string(path("4.damaged"));
     assert_eq!(kept.expect("kept"), "damaged");
     window.send(Intent::CyclePlayMode);
-    wait_until(&mut window, "autosaved", |_| path("2.json").is_file());
+    wait_until(&mut window, "autosaved", |_| path("4.json").is_file());
 }
 
 #[cfg(unix)]
