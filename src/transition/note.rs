@@ -81,6 +81,33 @@ impl TransitionNote {
     }
 }
 
+impl TransitionNote {
+    /// Returns the text of a note without numbers or names.
+    fn fixed_text(&self) -> &'static str {
+        match self {
+            Self::BinaryBoundary => {
+                "the boundary runs between cells: only the Euclidean metric can place it exactly"
+            }
+            Self::PaintIgnored => {
+                "the drawings are shown in one colour: they have too many colours or parts for distance fields; use fewer cells, or rigid parts"
+            }
+            Self::NodesRenumbered => {
+                "the nodes of the trusses were paired by their bars and positions, because their numbers differ"
+            }
+            Self::CachedMatchIgnored => {
+                "the match saved in the project does not belong to its designs, so another one was computed; save the project to keep it"
+            }
+            Self::NamesIgnored => {
+                "parts are not paired by their names: there are too many of them; remove small parts, or use fewer cells"
+            }
+            Self::PartTimesIgnored => {
+                "all parts move at the same time: only rigid parts can have part timings"
+            }
+            _ => "",
+        }
+    }
+}
+
 impl fmt::Display for TransitionNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -101,28 +128,7 @@ impl fmt::Display for TransitionNote {
                 f,
                 "the designs would match far better if one were mirrored (conformal distortion {mirrored:.1} instead of {as_drawn:.1}): flip one horizontally if that is intended"
             ),
-            Self::BinaryBoundary => write!(
-                f,
-                "the boundary runs between cells: only the Euclidean metric can place it exactly"
-            ),
-            Self::PaintIgnored => write!(
-                f,
-                "the drawings are shown in one colour: they have too many colours or parts for distance fields; use fewer cells, or rigid parts"
-            ),
             Self::PageFitted(page) => page.fmt(f),
-            Self::NodesRenumbered => f.write_str(
-                "the nodes of the trusses were paired by their bars and positions, because their numbers differ"
-            ),
-            Self::CachedMatchIgnored => f.write_str(
-                "the match saved in the project does not belong to its designs, so another one was computed; save the project to keep it"
-            ),
-            Self::NamesIgnored => f.write_str(
-                "parts are not paired by their names: there are too many of them; remove small parts, or use fewer cells"
-            ),
-            Self::PartTimesIgnored => write!(
-                f,
-                "all parts move at the same time: only rigid parts can have part timings"
-            ),
             Self::PartsUnsearched { parts } => write!(
                 f,
                 "{parts} of the parts that appear or disappear may cross others: there are too many for a search of all positions; remove small parts, or blend distance fields"
@@ -135,6 +141,12 @@ impl fmt::Display for TransitionNote {
                 f,
                 "faces differ very much in size, so {share:.0e} of the diagonal was added to the equations to make them solvable"
             ),
+            Self::BinaryBoundary
+            | Self::PaintIgnored
+            | Self::NodesRenumbered
+            | Self::CachedMatchIgnored
+            | Self::NamesIgnored
+            | Self::PartTimesIgnored => f.write_str(self.fixed_text()),
         }
     }
 }
