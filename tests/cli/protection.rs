@@ -198,7 +198,7 @@ fn partial_tables_of_interrupted_runs_are_removed_by_a_finished_one() {
     let output = cli.run(check);
     let message = stderr(&output);
     for name in ["r.partial.csv", "r.partial-2.csv"] {
-        let sentence = format!("removed `{name}`, which an interrupted run had left");
+        let sentence = format!("removed `{name}`, left by an interrupted run");
         assert!(message.contains(&sentence), "{message}");
         assert!(!cli.path(name).exists(), "{name}");
     }
