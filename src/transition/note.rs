@@ -82,7 +82,7 @@ impl TransitionNote {
 }
 
 impl TransitionNote {
-    /// Returns the text of a note without numbers or names.
+    /// Returns the text of a note that has no numbers or names in it; empty for other notes.
     fn fixed_text(&self) -> &'static str {
         match self {
             Self::BinaryBoundary => {

@@ -103,12 +103,12 @@ impl VertexCurve {
     }
 }
 
-/// Subtracts a motion that all curves have in common, and returns it. The boxes of the curves are
-/// then as small as if the whole drawing did not travel.
+/// Subtracts a common motion from all curves and returns it. The boxes of the curves are then as
+/// small as if the drawing as a whole did not move.
 ///
-/// A coordinate of the control points with one index is changed only if it is far from zero on all
-/// curves. The subtraction x − m is then exact, since m / 2 ≤ x ≤ 2 m (P. H. Sterbenz,
-/// Floating-Point Computation, 1974, theorem 4.3.1).
+/// The subtraction is exact. A coordinate x of a control point is changed only if the corresponding
+/// coordinates of all curves lie within a factor of 2; m, the middle of their range, then satisfies
+/// m / 2 ≤ x ≤ 2 m (P. H. Sterbenz, Floating-Point Computation, 1974, theorem 4.3.1).
 pub(super) fn subtract_common_motion(curves: &mut [VertexCurve]) -> VertexCurve {
     let count = curves.first().map_or(1, |curve| curve.control_points.len());
     let common = |values: &mut dyn Iterator<Item = f64>| -> f64 {
