@@ -46,8 +46,12 @@ fn without_files_a_gallery_project_plays_next_to_the_invitation() {
     assert_eq!(window.session().gallery_name(), Some(START_PROJECT));
     assert!(window.playback().is_playing());
     let before = window.t();
-    window.update();
-    assert_ne!(window.t(), before);
+    // The film may just pause at one of its ends.
+    let moves = (0..200).any(|_| {
+        window.update();
+        window.t() != before
+    });
+    assert!(moves, "t stays {before}");
     assert!(
         is_invited(&window),
         "it stays until the user does something"
