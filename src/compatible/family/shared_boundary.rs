@@ -12,9 +12,9 @@ use crate::geometry::{Bounds, DVec2};
 use std::collections::HashMap;
 
 /// Maximum distance, as a fraction of the hub's diameter, at which points of different matches are
-/// merged (tolerance: far below what is visible, and far above the rounding that separates the
-/// points of two equal designs).
-const MERGE_DISTANCE: f64 = 1e-6;
+/// merged (heuristic). Merging changes which points correspond, by no more than this distance, but
+/// no outline. Without it the number of points grows with the number of designs.
+const MERGE_DISTANCE: f64 = 0.002;
 
 /// Boundary rings of one piece (a matched connected part) in all designs: `rings[ring][design]` is
 /// a list of points. Point k of a ring corresponds to point k of that ring in every other design.

@@ -194,13 +194,11 @@ fn transfer_to_all(
         let is_valid = mesh.is_valid();
         Ok(is_valid.then(|| (mean_cost(&mesh), mesh.points[1].clone())))
     };
-    let all: Vec<_> = (0..designs.len())
+    // Ends with the first design in which faces remain folded.
+    let all: Result<Option<Vec<_>>, Cancelled> = (0..designs.len())
         .into_par_iter()
         .map(transferred)
         .collect();
-    let all = all
-        .into_iter()
-        .collect::<Result<Option<Vec<_>>, Cancelled>>();
     let Some(all) = all? else {
         return Ok(None);
     };
