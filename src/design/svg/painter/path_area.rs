@@ -129,48 +129,47 @@ impl SvgPainter<'_> {
 
     /// Returns the outline of a stroke along `data`. `transform` maps its coordinates to the page.
     fn stroke_outline(
-        &self,
+        &mut self,
         path: &Path,
         data: &tiny_skia_path::Path,
         stroke: &Stroke,
         transform: Transform,
     ) -> Option<tiny_skia_path::Path> {
-        let mut stroke = stroke.to_tiny_skia();
         // The stroker's error is a quarter of a pixel. A pixel is 1 / resolution in the coordinates
         // of the path. At the resolution `finest`, the error on the page equals the tolerance.
         let (sx, sy) = transform.get_scale();
         let finest = 0.25 * f64::from(sx.max(sy)) / self.options.tolerance;
         let resolution = finest.clamp(1.0, MAX_RESOLUTION) as f32;
         let dashed;
-        let data = match stroke.dash.take() {
+        let data = match self.dash(path, data, stroke) {
             Some(dash) => {
-                let dash = self.scaled_dash(path, data, dash)?;
                 dashed = data.dash(&dash, resolution)?;
                 &dashed
             }
             None => data,
         };
-        data.stroke(&stroke, resolution)
+        data.stroke(&stroke.to_tiny_skia(), resolution)
     }
 
-    /// Scales dashes that refer to a length given by the author (`pathLength`).
-    fn scaled_dash(
-        &self,
+    /// Returns the dashes of a stroke along `data`, scaled if they refer to a length given by the
+    /// author (`pathLength`); `None` for a solid stroke and for more than [`MAX_DASHES`] dashes.
+    fn dash(
+        &mut self,
         path: &Path,
         data: &tiny_skia_path::Path,
-        dash: tiny_skia_path::StrokeDash,
+        stroke: &Stroke,
     ) -> Option<tiny_skia_path::StrokeDash> {
+        let pattern = stroke.dasharray()?;
+        let length = path_length(data);
         let source = self.source(path.id());
         let given = source.and_then(|id| self.options.path_length(id));
-        let (Some(given), Some(stroke)) = (given, path.stroke()) else {
-            return Some(dash);
-        };
-        let ratio = (path_length(data) / given) as f32;
-        let lengths = stroke
-            .dasharray()?
-            .iter()
-            .map(|length| length * ratio)
-            .collect();
+        let ratio = given.map_or(1.0, |given| (length / given) as f32);
+        let lengths: Vec<f32> = pattern.iter().map(|length| length * ratio).collect();
+        let period: f64 = lengths.iter().copied().map(f64::from).sum();
+        if length / period * lengths.len() as f64 / 2.0 > MAX_DASHES {
+            self.approximate("stroke-dasharray of too many dashes", "drawn solid");
+            return None;
+        }
         tiny_skia_path::StrokeDash::new(lengths, stroke.dashoffset() * ratio)
     }
 
@@ -207,6 +206,10 @@ impl SvgPainter<'_> {
 /// Maximum resolution of the stroker in pixels per unit (tolerance: a higher one exceeds the
 /// precision of `f32`).
 const MAX_RESOLUTION: f64 = 1e6;
+
+/// Maximum number of dashes along a path (resource limit: overlaps of this many are resolved within
+/// a second).
+const MAX_DASHES: f64 = 10_000.0;
 
 /// Number of chords that measure the length of a curve (tolerance: the error for a quarter of a
 /// circle is below 1e-4).

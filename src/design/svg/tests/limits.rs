@@ -193,12 +193,27 @@ fn a_style_sheet_of_many_rules_does_not_hang() {
 }
 
 #[test]
-fn a_stroke_of_countless_dashes_does_not_hang() {
-    let path =
-        r#"<path d="M0 0 h100" stroke="black" stroke-dasharray="1e-7" stroke-linecap="round"/>"#;
-    let start = Instant::now();
-    drop(stroked(&path.repeat(3), None));
-    assert!(start.elapsed() < ENDLESS);
+fn a_stroke_of_countless_dashes_becomes_solid() {
+    for (data, dashes) in [
+        ("M0 50 h100", "1e-7"),
+        // Found by fuzzing: the overlaps of these dashes took minutes.
+        (
+            "M10 50 L90 20 q1e-9 -3 1 20 M1e-9 -3 L20 1 1e9 90 v20 20 50",
+            "2e-4",
+        ),
+    ] {
+        let path = |dashes: &str| {
+            format!(r#"<path d="{data}" stroke="black" stroke-dasharray="{dashes}"/>"#)
+        };
+        let start = Instant::now();
+        let drawing = stroked(&path(dashes).repeat(3), None).expect("a drawing");
+        assert!(start.elapsed() < ENDLESS);
+        let notes: Vec<String> = drawing.notes.iter().map(ToString::to_string).collect();
+        assert!(notes.iter().any(|note| note.contains("dashes")), "{notes:?}");
+        let solid = stroked(&path("none"), None).expect("a drawing");
+        let areas = [&drawing, &solid].map(|drawing| drawing.regions.area());
+        assert!((areas[0] - areas[1]).abs() < 1e-6 * areas[1], "{areas:?}");
+    }
 }
 
 /// Tries all ways in which a drawing could refer to another file.
