@@ -1,10 +1,11 @@
 //! Tests how the program's time and memory grow with the size n of its input, at the best quality.
 //!
-//! n is the number of holes, of separate polygons, of nested rings, of dashes, of letters or of
-//! pieces into which a star cuts itself, a fifth of the number of bars, or a tenth of the number of
-//! points of an outline. The time grows at most as n² log n, and the memory stays below 1 GiB.
-//! Without `--release`, n is at most 40, and dashes and letters are left out. `cargo test --release --no-default-features --features cli
-//! --test asymptotics -- --nocapture --test-threads 1` prints the measured times.
+//! n is the number of holes, of separate polygons, of nested rings, of dashes, of letters, of pieces
+//! into which a star cuts itself or of designs on a map, a fifth of the number of bars, or a tenth
+//! of the number of points of an outline. The time grows at most as n² log n, and the memory stays
+//! below 1 GiB. Without `--release`, n is at most 40, and dashes and letters are left out. `cargo
+//! test --release --no-default-features --features cli --test asymptotics -- --nocapture
+//! --test-threads 1` prints the measured times.
 
 #![expect(clippy::print_stdout, reason = "measured times are printed")]
 
@@ -94,23 +95,25 @@ const MIN_SECONDS: f64 = 0.25;
 /// Asserts that time and memory for a transition from `design(n)` to a square grow slowly with n,
 /// and prints them.
 fn assert_slow_growth(name: &str, design: impl Fn(u32) -> FamilyDesign) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let write =
-        |name: &str, text: String| fs::write(folder.path().join(name), text).expect("written");
-    write("square.json", "[[0,0],[4,0],[4,4],[0,4]]".to_owned());
-    let cost = |&n: &u32| {
+    assert_slow_growth_of_run(name, |folder, n| {
+        let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("written");
+        write("square.json", "[[0,0],[4,0],[4,4],[0,4]]");
         let source = match design(n) {
             FamilyDesign::File(name, text) => {
-                write(name, text);
+                write(name, &text);
                 name.to_owned()
             }
             FamilyDesign::Letters(letters) => format!("glyph:{letters}"),
         };
-        run_cost(
-            folder.path(),
-            &format!("render {source} square.json --at 0.5 --out half.svg"),
-        )
-    };
+        format!("render {source} square.json --at 0.5 --out half.svg")
+    });
+}
+
+/// Asserts that time and memory of the program grow slowly with n, and prints them. `line` writes
+/// the inputs into a folder and returns the arguments.
+fn assert_slow_growth_of_run(name: &str, line: impl Fn(&Path, u32) -> String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cost = |&n: &u32| run_cost(folder.path(), &line(folder.path(), n));
     let costs: Vec<RunCost> = SIZES.iter().map(cost).collect();
     let seconds: Vec<f64> = costs.iter().map(|cost| cost.cpu_seconds).collect();
     let last = SIZES.len() - 1;
@@ -254,5 +257,33 @@ fn time_for_smooth_outlines_grows_at_most_quadratically_in_their_points() {
     assert_slow_growth("smooth outline", |n| {
         let lobes = TAU * 5.0 / f64::from(10 * n);
         closed_curve(10 * n, |k| 8.0 + 2.0 * (lobes * f64::from(k)).sin())
+    });
+}
+
+#[test]
+fn time_for_maps_grows_at_most_quadratically_in_their_designs() {
+    // Blobs of 60 points; the fractional parts of k · 0.618… are spread evenly (Weyl, 1916).
+    let blob = |k: u32| {
+        let spread = |j: u32| (f64::from(k * 7 + j) * 0.618_034).fract();
+        regular_polygon(DVec2::ZERO, 1.0, 60)
+            .into_iter()
+            .map(move |p| {
+                let wave =
+                    |j: u32| (f64::from(j) * p.to_angle() + TAU * spread(j)).cos() * spread(9 + j);
+                p * (8.0 + (2..6).map(wave).sum::<f64>())
+            })
+    };
+    assert_slow_growth_of_run("designs on a map", |folder, n| {
+        let name = |k: u32| format!("blob{k}.json");
+        for k in 0..n {
+            let ring: Vec<_> = blob(k).map(|p| p.to_array()).collect();
+            let text = serde_json::to_string(&ring).expect("numbers");
+            fs::write(folder.join(name(k)), text).expect("written");
+        }
+        let names: Vec<String> = (0..n).map(name).collect();
+        format!(
+            "render {} --map 4x4 --quality draft --size 200x200 --out map.png",
+            names.join(" ")
+        )
     });
 }

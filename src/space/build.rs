@@ -16,7 +16,7 @@ use crate::transition::{
     TransitionOptions, TransitionSpec, bar_width, field_frame, measured, outline,
 };
 use crate::warp::{ArapBlend, ManyFeatures, WarpKind};
-use crate::work::budget::WorkloadKind;
+use crate::work::budget::{WorkloadKind, WorkloadTooLarge};
 use crate::work::progress::{
     OverallProgress, Progress, ProgressShares, ProgressSpan, check_cancelled, checkpoint,
 };
@@ -203,17 +203,11 @@ impl BuiltContent {
             .iter()
             .map(|design| outline(design, bar_width, progress));
         let outlines: Vec<Regions> = outlines.collect::<Result<_, _>>()?;
-        // Only two designs at a time are matched, so the limit applies to the points of two
-        // designs. Only consecutive designs are checked.
-        for pair in outlines.windows(2) {
-            let rings = pair.iter().flat_map(Regions::rings);
-            let points = rings.map(|ring| ring.points().len()).sum();
-            if let Err(error) = WorkloadKind::Points.check(points, progress) {
-                return Ok(Self {
-                    form: CommonForms::Given(Err(error.into()), Vec::new()),
-                    distances: DesignDistances::uniform(outlines.len()),
-                });
-            }
+        if let Err(error) = check_workload(&outlines, progress) {
+            return Ok(Self {
+                form: CommonForms::Given(Err(error.into()), Vec::new()),
+                distances: DesignDistances::uniform(outlines.len()),
+            });
         }
         Ok(Self {
             form: CommonForms::Outlines,
@@ -324,6 +318,21 @@ impl BuiltContent {
         let count = spec.designs.len();
         Ok(Err(first_error.unwrap_or(FamilyError::TooFew(count))))
     }
+}
+
+/// Checks whether the outlines of a design space may be matched without confirmation.
+///
+/// # Errors
+/// [`WorkloadTooLarge`] if there are too many outlines or points.
+fn check_workload(outlines: &[Regions], progress: &dyn Progress) -> Result<(), WorkloadTooLarge> {
+    WorkloadKind::Designs.check(outlines.len(), progress)?;
+    // Only two designs at a time are matched, so the limit applies to the points of two designs.
+    // Only consecutive designs are checked.
+    outlines.windows(2).try_for_each(|pair| {
+        let rings = pair.iter().flat_map(Regions::rings);
+        let points = rings.map(|ring| ring.points().len()).sum();
+        WorkloadKind::Points.check(points, progress)
+    })
 }
 
 /// Matches the hub with each other design by building the transition between them.

@@ -6,6 +6,7 @@ use crate::content::ContentKind;
 use crate::design::{Design, DesignForm, Truss};
 use crate::geometry::{Bounds, DVec2};
 use crate::transition::{BuildError, Transition, TransitionMethod, TransitionSpec};
+use crate::work::budget::WorkloadKind;
 use crate::work::progress::{Cancelled, Progress, Silent};
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -168,6 +169,19 @@ fn outlines_with_too_many_points_are_blended_as_fields() {
     spec.content = Some(ContentKind::Solid);
     let error = DesignSpace::build(&spec, &Silent).expect_err("too much");
     assert!(matches!(error, SpaceError::NoCommonMesh(_)), "{error}");
+}
+
+#[test]
+fn outlines_of_too_many_designs_are_blended_as_fields() {
+    let mut spec = SpaceSpec::new(vec![
+        star("star", 5, 1.5);
+        WorkloadKind::Designs.limit() + 1
+    ]);
+    spec.options.field.cells = 16;
+    let space = DesignSpace::build(&spec, &Silent).expect("fields");
+    assert!(space.family().is_none());
+    let note = space.notes()[0].to_string();
+    assert!(note.contains("designs on a map may take more"), "{note}");
 }
 
 #[test]

@@ -17,6 +17,8 @@ pub enum WorkloadKind {
     Pieces,
     /// Holes of both designs together; they are matched and triangulated.
     Holes,
+    /// Outlines of a design space; each pair of them is matched.
+    Designs,
     /// Bars of a truss whose outline is computed.
     Bars,
     /// Pairs of bars that cross without a node at the crossing, in a truss that is triangulated.
@@ -42,6 +44,9 @@ impl WorkloadKind {
             Self::Pieces => 1_500,
             // A draft transition takes 1.3 s with 100 holes per design and 7.8 s with 200.
             Self::Holes => 300,
+            // A draft map of 50 designs with 120 points each takes 14 s of processor time, one of 80
+            // designs with 60 points 22 s.
+            Self::Designs => 50,
             // 20,000 bars that each overlap 240 others take more than 15 s.
             Self::Bars => 5_000,
             // 200 nodes that are all joined to each other have 60 million crossings, which take 2
@@ -63,6 +68,7 @@ impl WorkloadKind {
             Self::Points => "outline points",
             Self::Pieces => "parts",
             Self::Holes => "holes",
+            Self::Designs => "designs on a map",
             Self::Bars => "bars",
             Self::CrossingBars => "bar crossings without a node",
             Self::Cells => "grid cells",
@@ -77,6 +83,7 @@ impl WorkloadKind {
             Self::Points => "simplify the outlines, or blend distance fields",
             Self::Pieces => "remove small parts, or blend distance fields",
             Self::Holes => "remove small holes, or blend distance fields",
+            Self::Designs => "use fewer designs, or blend distance fields",
             Self::Bars => "remove bars",
             Self::CrossingBars => "add nodes where bars cross, or remove bars",
             Self::Cells => "choose fewer cells",

@@ -209,7 +209,10 @@ fn a_stroke_of_countless_dashes_becomes_solid() {
         let drawing = stroked(&path(dashes).repeat(3), None).expect("a drawing");
         assert!(start.elapsed() < ENDLESS);
         let notes: Vec<String> = drawing.notes.iter().map(ToString::to_string).collect();
-        assert!(notes.iter().any(|note| note.contains("dashes")), "{notes:?}");
+        assert!(
+            notes.iter().any(|note| note.contains("dashes")),
+            "{notes:?}"
+        );
         let solid = stroked(&path("none"), None).expect("a drawing");
         let areas = [&drawing, &solid].map(|drawing| drawing.regions.area());
         assert!((areas[0] - areas[1]).abs() < 1e-6 * areas[1], "{areas:?}");
