@@ -262,10 +262,10 @@ fn time_for_smooth_outlines_grows_at_most_quadratically_in_their_points() {
 
 #[test]
 fn time_for_maps_grows_at_most_quadratically_in_their_designs() {
-    // Blobs of 60 points; the fractional parts of k · 0.618… are spread evenly (Weyl, 1916).
+    // Blobs of 30 points; the fractional parts of k · 0.618… are spread evenly (Weyl, 1916).
     let blob = |k: u32| {
-        let spread = |j: u32| (f64::from(k * 7 + j) * 0.618_034).fract();
-        regular_polygon(DVec2::ZERO, 1.0, 60)
+        let spread = move |j: u32| (f64::from(k * 7 + j) * 0.618_034).fract();
+        regular_polygon(DVec2::ZERO, 1.0, 30)
             .into_iter()
             .map(move |p| {
                 let wave =
