@@ -330,8 +330,7 @@ fn check_workload(outlines: &[Regions], progress: &dyn Progress) -> Result<(), W
     // Only consecutive designs are checked.
     outlines.windows(2).try_for_each(|pair| {
         let rings = pair.iter().flat_map(Regions::rings);
-        let points = rings.map(|ring| ring.points().len()).sum();
-        WorkloadKind::Points.check(points, progress)
+        WorkloadKind::Points.check(rings.map(|ring| ring.points().len()).sum(), progress)
     })
 }
 

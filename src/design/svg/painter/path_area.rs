@@ -140,15 +140,11 @@ impl SvgPainter<'_> {
         let (sx, sy) = transform.get_scale();
         let finest = 0.25 * f64::from(sx.max(sy)) / self.options.tolerance;
         let resolution = finest.clamp(1.0, MAX_RESOLUTION) as f32;
-        let dashed;
-        let data = match self.dash(path, data, stroke) {
-            Some(dash) => {
-                dashed = data.dash(&dash, resolution)?;
-                &dashed
-            }
-            None => data,
-        };
-        data.stroke(&stroke.to_tiny_skia(), resolution)
+        let style = stroke.to_tiny_skia();
+        match self.dash(path, data, stroke) {
+            Some(dash) => data.dash(&dash, resolution)?.stroke(&style, resolution),
+            None => data.stroke(&style, resolution),
+        }
     }
 
     /// Returns the dashes of a stroke along `data`, scaled if they refer to a length given by the
@@ -161,8 +157,7 @@ impl SvgPainter<'_> {
     ) -> Option<tiny_skia_path::StrokeDash> {
         let pattern = stroke.dasharray()?;
         let length = path_length(data);
-        let source = self.source(path.id());
-        let given = source.and_then(|id| self.options.path_length(id));
+        let given = (self.source(path.id())).and_then(|id| self.options.path_length(id));
         let ratio = given.map_or(1.0, |given| (length / given) as f32);
         let lengths: Vec<f32> = pattern.iter().map(|length| length * ratio).collect();
         let period: f64 = lengths.iter().copied().map(f64::from).sum();
