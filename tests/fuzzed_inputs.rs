@@ -1,5 +1,6 @@
 //! Tests with mutated inputs, without a fuzzer: fonts, cached matches, projects, and drawings with
-//! strokes and text on paths. The checks are those of the fuzz targets of the same names.
+//! strokes and text on paths; and inputs that the fuzzer found. The checks are those of the fuzz
+//! targets of the same names.
 //!
 //! `cargo test --release --no-default-features --test fuzzed_inputs -- --include-ignored` tests 50
 //! times as many.
@@ -157,6 +158,22 @@ fn mutated_projects_give_frames_or_one_line_errors() {
 #[test]
 fn random_strokes_and_text_on_paths_give_designs_or_one_line_errors() {
     check_drawings(30);
+}
+
+/// Inputs that the fuzzer found, few enough that each adds covered code (`-set_cover_merge=1
+/// -use_counters=0`).
+#[test]
+fn inputs_found_by_fuzzing_hold_the_checks() {
+    let drawings: Vec<[String; 3]> =
+        serde_json::from_str(include_str!("fuzzed/corpus/strokes.json")).expect("drawings");
+    for [data, style, words] in &drawings {
+        fuzzed::check_strokes(data, style, words);
+    }
+    let changes: Vec<Vec<(u32, u8)>> =
+        serde_json::from_str(include_str!("fuzzed/corpus/cached_match.json")).expect("changes");
+    for changes in &changes {
+        fuzzed::check_cached_match(changes);
+    }
 }
 
 #[test]
