@@ -13,7 +13,8 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
 
 /// Number of samples along each outline for the matches that measure the dissimilarity (heuristic:
-/// half the default; the cost depends little on it, and a match takes a quarter of the time).
+/// with half the default, a match takes a quarter of the time; among ten outlines, no dissimilarity
+/// changes by more than 0.025).
 const SAMPLES: u32 = 80;
 
 /// Symmetric matrix of the dissimilarities of all pairs of designs, with 0 on the diagonal.
