@@ -103,13 +103,12 @@ impl PatternCholesky {
         }
     }
 
-    /// Factors the matrix with the entries in `memory`, and solves in place for `rhs`. Returns
-    /// whether the matrix is positive definite; if not, `rhs` is unchanged.
+    /// Factors the matrix with the entries in `memory`. Returns whether it is positive definite; if
+    /// not, [`Self::back_substitute`] must not be used.
     ///
     /// # Panics
-    /// If the memory belongs to another pattern, or `rhs` does not have one number for each
-    /// unknown.
-    pub fn solve(&self, memory: &mut PatternWorkspace, rhs: &mut [f64]) -> bool {
+    /// If the memory belongs to another pattern.
+    pub fn factor(&self, memory: &mut PatternWorkspace) -> bool {
         let PatternWorkspace {
             entries,
             factor,
@@ -124,17 +123,35 @@ impl PatternCholesky {
             MemStack::new(work),
             Default::default(),
         );
-        if factored.is_err() {
-            return false;
-        }
+        factored.is_ok()
+    }
+
+    /// Solves in place for `rhs` with the factors of the last [`Self::factor`].
+    ///
+    /// # Panics
+    /// If the memory belongs to another pattern, or `rhs` does not have one number for each
+    /// unknown.
+    pub fn back_substitute(&self, memory: &mut PatternWorkspace, rhs: &mut [f64]) {
         let rows = rhs.len();
-        LltRef::new(&self.symbolic, factor).solve_in_place_with_conj(
+        LltRef::new(&self.symbolic, &memory.factor).solve_in_place_with_conj(
             Conj::No,
             MatMut::from_column_major_slice_mut(rhs, rows, 1),
             Par::Seq,
-            MemStack::new(work),
+            MemStack::new(&mut memory.work),
         );
-        true
+    }
+
+    /// Factors the matrix with the entries in `memory`, and solves in place for `rhs`. Returns
+    /// whether the matrix is positive definite; if not, `rhs` is unchanged.
+    ///
+    /// # Panics
+    /// As [`Self::factor`] and [`Self::back_substitute`].
+    pub fn solve(&self, memory: &mut PatternWorkspace, rhs: &mut [f64]) -> bool {
+        let is_definite = self.factor(memory);
+        if is_definite {
+            self.back_substitute(memory, rhs);
+        }
+        is_definite
     }
 }
 
