@@ -51,5 +51,10 @@ pub use silhouette::{SilhouetteCandidate, SilhouetteError, silhouette_candidates
 pub use sniff::{UnknownFormat, sniff};
 pub use source::DesignSource;
 pub use svg::{InstalledFont, SvgError, installed_fonts};
-pub use truss::{Truss, TrussInputError, TrussLoad, TrussMaterial, TrussParts, TrussSupport};
+pub(crate) use truss::GRAVITY;
+pub use truss::{
+    MaterialGrade, SectionShape, Truss, TrussForceUnit, TrussInputError, TrussLengthUnit,
+    TrussLineLoad, TrussLoad, TrussLoadCase, TrussMaterial, TrussParts, TrussSection,
+    TrussStressUnit, TrussSupport, TrussUnits,
+};
 pub use unit::LengthUnit;

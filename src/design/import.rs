@@ -4,6 +4,7 @@
 use super::error::{ImportError, ImportProblem};
 use super::form::{Design, ImportedOutlines};
 use super::format::Format;
+use super::note::ImportNote;
 use super::options::ImportOptions;
 use super::sniff::sniff;
 use super::source::DesignSource;
@@ -143,7 +144,13 @@ fn read(
             }
         }
         Format::Polygons => polygons::read(text(bytes)?)?.into_design(name),
-        Format::Truss => Design::new(name, Truss::from_json(text(bytes)?)?),
+        Format::Truss => {
+            let truss = Truss::from_json(text(bytes)?)?;
+            Design {
+                notes: Vec::from_iter(truss.lacks_units().then_some(ImportNote::NoTrussUnits)),
+                ..Design::new(name, truss)
+            }
+        }
     })
 }
 

@@ -105,6 +105,8 @@ pub enum ImportNote {
     },
     /// Omission or approximation of a DXF drawing.
     Dxf(DxfNote),
+    /// A truss with loads, areas, sections or materials does not say in which units they are.
+    NoTrussUnits,
 }
 
 impl ImportNote {
@@ -196,6 +198,9 @@ impl fmt::Display for ImportNote {
                 write_ignored(f, *count, kinds)
             }
             Self::Dxf(note) => note.fmt(f),
+            Self::NoTrussUnits => f.write_str(
+                "the truss has no \"units\"; it was read in metres, kilonewtons and pascals",
+            ),
             Self::Strokes(_)
             | Self::Texts(_)
             | Self::Font(_)

@@ -1,38 +1,41 @@
 //! The [`Truss`] type (nodes joined by bars) and its JSON file format.
 //!
-//! The file is one JSON object. Nodes and bars are numbered from 0. Unknown keys are errors.
-//!
-//! ```json
-//! {
-//!   "nodes": [[0, 0], [1, 0], [0, 1]],
-//!   "bars": [[0, 1], [1, 2], [2, 0]],
-//!   "supports": [{ "node": 0, "fixed": [true, true] }],
-//!   "loads": [{ "node": 2, "force": [0, -1] }],
-//!   "areas": [0.01, 0.01, 0.02],
-//!   "colours": ["#c0392b", "#c0392b", "#2c3e50"],
-//!   "materials": [{ "name": "steel", "youngs_modulus": 2.1e11, "density": 7850 }],
-//!   "bar_materials": [0, 0, 0]
-//! }
-//! ```
-//!
-//! `nodes` (x and y, y up) and `bars` are required. `colours`, `areas` (cross sections) and
-//! `bar_materials` (indices into `materials`) have one entry per bar or are absent. Supports
-//! (whether the displacements along x and y are fixed), loads, areas and materials are validated
-//! and stored, but no computation uses them yet.
+//! The file is one JSON object; `docs/reference/formats.md` describes it. `parts` holds its data,
+//! with `units`, `members` (materials and sections) and `loads` (supports and loads); `check`
+//! validates them, `json` writes the file.
 //!
 //! A [`Truss`] guarantees that coordinates are in range, that every bar joins two nodes at
-//! different positions, that no bar occurs twice and that every node belongs to a bar.
+//! different positions, that no bar occurs twice, that every node belongs to a bar, and that all
+//! numbers are finite and within their ranges.
 
+mod check;
+mod error;
+mod json;
+mod loads;
+mod members;
 mod parts;
+mod units;
 
-pub use parts::{TrussInputError, TrussLoad, TrussMaterial, TrussParts, TrussSupport};
+pub use error::TrussInputError;
+pub use loads::{TrussLineLoad, TrussLoad, TrussLoadCase, TrussSupport};
+pub use members::{MaterialGrade, SectionShape, TrussMaterial, TrussSection};
+pub use parts::TrussParts;
+pub(crate) use units::GRAVITY;
+pub use units::{TrussForceUnit, TrussLengthUnit, TrussStressUnit, TrussUnits};
 
 use super::json_error::JsonError;
 use crate::geometry::{Bounds, DVec2, Similarity};
 
 /// Validated truss: nodes joined by bars.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Truss(TrussParts);
+pub struct Truss {
+    /// Data in the coordinates of the file.
+    parts: TrussParts,
+    /// Positions of the nodes after the placement.
+    nodes: Vec<DVec2>,
+    /// Similarity from the coordinates of the file to those of the nodes.
+    placement: Similarity,
+}
 
 impl Truss {
     /// Creates a truss from nodes and bars only.
@@ -60,7 +63,11 @@ impl Truss {
     /// Returns a [`TrussInputError`] that names the first invalid entry.
     pub fn from_parts(parts: TrussParts) -> Result<Self, TrussInputError> {
         parts.check()?;
-        Ok(Self(parts))
+        Ok(Self {
+            nodes: parts.nodes.clone(),
+            parts,
+            placement: Similarity::IDENTITY,
+        })
     }
 
     /// Parses a truss from the text of its file.
@@ -72,37 +79,74 @@ impl Truss {
         Self::from_parts(serde_json::from_str(text).map_err(JsonError::from)?)
     }
 
-    /// Returns the node positions, y up.
+    /// Returns the text of the file of the truss, in the coordinates before it was placed.
+    ///
+    /// ```
+    /// use morphospace::design::Truss;
+    /// let text = r#"{"nodes": [[0, 0], [1, 0]], "bars": [[0, 1]], "areas": [0.1]}"#;
+    /// let truss = Truss::from_json(text)?;
+    /// assert_eq!(Truss::from_json(&truss.to_json())?, truss);
+    /// # Ok::<(), morphospace::design::TrussInputError>(())
+    /// ```
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        json::text(&self.parts)
+    }
+
+    /// Returns the node positions, y up, after the placement.
     #[must_use]
     pub fn nodes(&self) -> &[DVec2] {
-        &self.0.nodes
+        &self.nodes
+    }
+
+    /// Returns the similarity that has been applied to the coordinates of the file.
+    #[must_use]
+    pub fn placement(&self) -> Similarity {
+        self.placement
+    }
+
+    /// Returns the units of the file, or the default ones if it names none.
+    #[must_use]
+    pub fn units(&self) -> TrussUnits {
+        self.parts.units.unwrap_or(TrussUnits::DEFAULT)
+    }
+
+    /// Returns whether the file names no units although it has numbers that need them: supports do
+    /// not, but loads, areas, sections and materials do.
+    pub(super) fn lacks_units(&self) -> bool {
+        let parts = &self.parts;
+        let has_numbers = !(parts.loads.is_empty()
+            && parts.load_cases.is_empty()
+            && parts.areas.is_empty()
+            && parts.sections.is_empty()
+            && parts.materials.is_empty());
+        parts.units.is_none() && has_numbers
     }
 
     /// Returns the two node indices of each bar.
     #[must_use]
     pub fn bars(&self) -> &[[u32; 2]] {
-        &self.0.bars
+        &self.parts.bars
     }
 
-    /// Returns all data of the truss.
+    /// Returns all data of the truss, in the coordinates of the file. The placement changes only
+    /// [`Self::nodes`].
     #[must_use]
     pub fn parts(&self) -> &TrussParts {
-        &self.0
+        &self.parts
     }
 
     /// Returns the two end points of each bar.
     pub fn segments(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
-        self.0
-            .bars
-            .iter()
-            .map(|bar| bar.map(|node| self.0.nodes[node as usize]))
+        let ends = |bar: &[u32; 2]| bar.map(|node| self.nodes[node as usize]);
+        self.parts.bars.iter().map(ends)
     }
 
     /// Returns the bounding box of the nodes; it is flat if they lie on a horizontal or
     /// vertical line.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
-        Bounds::of(self.0.nodes.iter().copied())
+        Bounds::of(self.nodes.iter().copied())
             .unwrap_or_else(|| unreachable!("a truss has a bar and so nodes"))
     }
 
@@ -110,7 +154,7 @@ impl Truss {
     /// `None` if it does not list each node once.
     #[must_use]
     pub fn with_nodes_in_order(&self, order: &[u32]) -> Option<Self> {
-        let mut new_index = vec![None; self.0.nodes.len()];
+        let mut new_index = vec![None; self.nodes.len()];
         for (index, &node) in order.iter().enumerate() {
             let slot = new_index.get_mut(node as usize)?;
             if slot.replace(index as u32).is_some() {
@@ -121,36 +165,31 @@ impl Truss {
             *node = new_index[*node as usize]?;
             Some(())
         };
-        let mut parts = self.0.clone();
-        parts.nodes = order
-            .iter()
-            .map(|&node| self.0.nodes[node as usize])
-            .collect();
+        let in_order = |nodes: &[DVec2]| order.iter().map(|&node| nodes[node as usize]).collect();
+        let mut parts = self.parts.clone();
+        parts.nodes = in_order(&self.parts.nodes);
         parts.bars.iter_mut().flatten().try_for_each(renumbered)?;
         let supports = parts.supports.iter_mut().map(|support| &mut support.node);
-        let loads = parts.loads.iter_mut().map(|load| &mut load.node);
+        let of_cases = parts.load_cases.iter_mut().flat_map(|case| &mut case.loads);
+        let loads = parts.loads.iter_mut().chain(of_cases);
+        let loads = loads.map(|load| &mut load.node);
         supports.chain(loads).try_for_each(renumbered)?;
-        Some(Self(parts))
+        Some(Self {
+            parts,
+            nodes: in_order(&self.nodes),
+            placement: self.placement,
+        })
     }
 
-    /// Returns the truss transformed by a similarity. Forces are rotated and mirrored but keep
-    /// their magnitude; supports still refer to the x and y axes of the plane.
+    /// Returns the truss placed by a similarity. Loads and supports are those of the file: the
+    /// similarity turns and mirrors them together with the truss, but forces keep their magnitude.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
-        // Forces are vectors that keep their magnitude: they are neither translated nor scaled.
-        let rotation = Similarity {
-            scale: 1.0,
-            offset: DVec2::ZERO,
-            ..*by
-        };
-        let mut parts = self.0.clone();
-        for node in &mut parts.nodes {
-            *node = by.apply(*node);
+        Self {
+            parts: self.parts.clone(),
+            nodes: self.nodes.iter().map(|&node| by.apply(node)).collect(),
+            placement: by.after(&self.placement),
         }
-        for load in &mut parts.loads {
-            load.force = rotation.apply(load.force);
-        }
-        Self(parts)
     }
 }
 

@@ -30,7 +30,8 @@ fn a_full_file_is_parsed_and_rotated() {
         ..Similarity::IDENTITY
     });
     assert!((turned.nodes()[1] - DVec2::new(1.0, 4.0)).length() < 1e-12);
-    assert!((turned.parts().loads[0].force - DVec2::X).length() < 1e-12);
+    let force = turned.placement().linear() * turned.parts().loads[0].force / 3.0;
+    assert!((force - DVec2::X).length() < 1e-12);
 }
 
 #[test]
