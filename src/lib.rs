@@ -83,6 +83,7 @@
 //! recording                     a warp as polynomials in t, and checks at every t
 //! transition                    methods, matching, frames, style
 //! space                         blends of many designs, and maps of them
+//! structure                     statics of trusses and of their in-betweens
 //! measure                       quality measures, defects and remedies
 //! project                       project files and the gallery
 //! export                        images, contact sheets, animations, vector files
@@ -124,6 +125,8 @@ pub mod recording;
 pub mod transition;
 
 pub mod space;
+
+pub mod structure;
 
 pub mod measure;
 

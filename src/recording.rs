@@ -42,6 +42,7 @@ pub use record::RecordingError;
 #[cfg(feature = "bevy")]
 pub(crate) use single_precision::{IntervalWeights, SinglePrecisionInterval};
 
+use crate::geometry::DVec2;
 use crate::warp::{MissedFeatures, Placement, Placer, Warp};
 use crate::work::progress::Progress;
 use channels::MovingChannels;
@@ -144,6 +145,16 @@ impl Recording {
             self.0.place(t, placement);
         }
         is_within
+    }
+}
+
+impl Recording {
+    /// Writes the positions in the frame of the first vertices at `t`, which must be in [0, 1].
+    pub(crate) fn write_places(&self, t: f64, places: &mut [DVec2]) {
+        let mut placer = self.placer();
+        placer.place(t);
+        let count = places.len();
+        places.copy_from_slice(&placer.placement().in_frame[..count]);
     }
 }
 

@@ -35,11 +35,39 @@ mod tests;
 
 pub use drawn_loop::DrawnLoop;
 
+pub(crate) use bernstein::{BernsteinProducts, EPS, degree_elevated};
+pub(crate) use vertex_curve::VertexCurve;
+
 use super::Recording;
 use crate::geometry::DVec2;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 use serde::Serialize;
 use vertex_curve::IntervalCurves;
+
+/// Motion of all vertices in one time interval of a recording.
+#[derive(Clone, Debug)]
+pub(crate) struct MotionInterval {
+    /// The t at both ends of the interval.
+    pub(crate) times: [f64; 2],
+    /// Curve of each vertex.
+    pub(crate) curves: Vec<VertexCurve>,
+}
+
+impl MotionInterval {
+    /// Splits the interval in the middle.
+    pub(crate) fn halves(&self) -> [Self; 2] {
+        let [from, to] = self.times;
+        let middle = from.midpoint(to);
+        let (left, right) = self
+            .curves
+            .iter()
+            .map(VertexCurve::halves)
+            .map(|[l, r]| (l, r))
+            .unzip();
+        [([from, middle], left), ([middle, to], right)]
+            .map(|(times, curves)| Self { times, curves })
+    }
+}
 
 /// Result of examining a recording at every t.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -87,6 +115,30 @@ pub struct OutlineMeeting {
 }
 
 impl Recording {
+    /// Returns the motion of the first `vertices` vertices in the frame, interval by interval.
+    pub(crate) fn motion_intervals(&self, vertices: usize) -> Vec<MotionInterval> {
+        if !self.0.channels.in_frame {
+            let placer = self.0.warp.placer();
+            let at_rest = |&place: &DVec2| VertexCurve {
+                control_points: vec![place; 2],
+                error: 0.0,
+            };
+            let places = &placer.placement().in_frame[..vertices];
+            return vec![MotionInterval {
+                times: [0.0, 1.0],
+                curves: places.iter().map(at_rest).collect(),
+            }];
+        }
+        let intervals = self.0.intervals.iter().map(|interval| {
+            let curves = IntervalCurves::of(interval);
+            MotionInterval {
+                times: [interval.from, interval.to],
+                curves: (0..vertices).map(|vertex| curves.curve(vertex)).collect(),
+            }
+        });
+        intervals.collect()
+    }
+
     /// Examines the recording at every t in [0, 1]: whether a face folds, and whether the given
     /// boundary loops meet. Takes about 20 µs for each face, plus a search for nearby edges.
     ///

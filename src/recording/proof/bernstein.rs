@@ -13,9 +13,10 @@ const MAX_DEGREE: usize = MAX_NODES + 1;
 pub(super) const MAX_PRODUCT_DEGREE: usize = 2 * MAX_DEGREE;
 
 /// Bound on the relative rounding error of one floating-point operation.
-pub(super) const EPS: f64 = f64::EPSILON;
+pub(crate) const EPS: f64 = f64::EPSILON;
 
-/// Returns the binomial coefficient of `n` over `k`; exact for n up to 50.
+/// Returns the binomial coefficient of `n` over `k`; exact for n up to 50, and accurate to a few
+/// roundings for larger ones.
 fn binomial(n: usize, k: usize) -> f64 {
     (0..k.min(n - k)).fold(1.0, |c, i| (c * (n - i) as f64 / (i + 1) as f64).round())
 }
@@ -45,7 +46,7 @@ pub(super) fn bernstein_basis(n: usize) -> Vec<Vec<f64>> {
 }
 
 /// Returns the Bernstein coefficients of the same polynomial in the next higher degree.
-fn degree_elevated(coefficients: &[f64]) -> Vec<f64> {
+pub(crate) fn degree_elevated(coefficients: &[f64]) -> Vec<f64> {
     let degree = coefficients.len();
     let at = |i: usize| coefficients.get(i).copied().unwrap_or(0.0);
     let coefficient = |i: usize| {
@@ -57,14 +58,14 @@ fn degree_elevated(coefficients: &[f64]) -> Vec<f64> {
 }
 
 /// Weights for multiplying two polynomials of the same degree in Bernstein form.
-pub(super) struct BernsteinProducts {
+pub(crate) struct BernsteinProducts {
     degree: usize,
     weights: Vec<f64>,
 }
 
 impl BernsteinProducts {
     /// Computes the weights for factors of the given degree.
-    pub(super) fn of_degree(degree: usize) -> Self {
+    pub(crate) fn of_degree(degree: usize) -> Self {
         let weight = |i: usize, j: usize| {
             binomial(degree, i) * binomial(degree, j) / binomial(2 * degree, i + j)
         };
@@ -75,6 +76,11 @@ impl BernsteinProducts {
         }
     }
 
+    /// Returns the weight of the product of the coefficients `i` and `j` in the coefficient i + j.
+    pub(crate) fn weight(&self, i: usize, j: usize) -> f64 {
+        self.weights[i * (self.degree + 1) + j]
+    }
+
     /// Returns the polynomial whose coefficient with index k is the weighted sum of `of(i, j)` over
     /// all i + j = k. If `of(i, j)` is uᵢ vⱼ, this is the product of the polynomials with the
     /// coefficients u and v. The error bound of the result is left at 0.
@@ -82,7 +88,7 @@ impl BernsteinProducts {
         let mut sum = BernsteinPolynomial::zero(2 * self.degree);
         for i in 0..=self.degree {
             for j in 0..=self.degree {
-                sum.c[i + j] += self.weights[i * (self.degree + 1) + j] * of(i, j);
+                sum.c[i + j] += self.weight(i, j) * of(i, j);
             }
         }
         sum

@@ -6,12 +6,12 @@ use crate::recording::interval::RecordingInterval;
 
 /// Curve along which one vertex moves during an interval or a part of it.
 #[derive(Clone, Debug)]
-pub(super) struct VertexCurve {
+pub(crate) struct VertexCurve {
     /// Bernstein coefficients of the curve: its control points.
-    pub(super) control_points: Vec<DVec2>,
+    pub(crate) control_points: Vec<DVec2>,
     /// Bound on the error of each coordinate: the rounding of the recording as it is played plus
     /// that of the control points.
-    pub(super) error: f64,
+    pub(crate) error: f64,
 }
 
 /// Converts the polynomials of an interval to vertex curves.

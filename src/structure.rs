@@ -1,0 +1,45 @@
+//! Statics of trusses and frames, and of everything between them.
+//!
+//! A [`StructuralBlend`] holds the members, supports and loads of several designs with the same
+//! bars. A [`StructureSolver`] analyses it with any weights and any places of its nodes: internal
+//! forces, displacements, reactions, mass, first natural frequency, and whether it is a mechanism.
+//!
+//! All quantities are in SI units (m, N, kg, Pa), and vectors are in the axes of the common frame
+//! of the designs. The analysis is linear and of first order: it is a concept check, not a design
+//! check by a building code.
+//!
+//! - `model`: structure of one design in SI units; `blend`: structures of several designs
+//! - `element`: stiffness and internal forces of a member; `node_axes`: fixed displacements
+//! - `solver`: statics and the first mode, with the system of equations in `pattern`
+//! - `buckling`: the load factor at which a structure buckles
+//! - `stability_proof`: proof that a recorded structure stands at every t
+//! - `sample`: results at one t; `shape_faults`, `findings`, `limits`: the concept check
+//! - `film`: analysis of a whole transition; `error`: errors and notes
+
+mod blend;
+mod buckling;
+mod element;
+mod error;
+mod film;
+mod findings;
+mod limits;
+mod model;
+mod node_axes;
+mod pattern;
+mod sample;
+mod shape_faults;
+mod solver;
+mod stability_proof;
+
+#[cfg(test)]
+mod tests;
+
+pub use blend::{LoadSelection, StructuralBlend};
+pub use element::{MemberForces, MemberProperties};
+pub use error::{StructureError, StructureNote};
+pub use film::{FilmStructure, Soundness};
+pub use findings::{StructureFault, StructureFinding};
+pub use limits::StructureLimits;
+pub use sample::{BarValue, StructureSample};
+pub use solver::{NodeDisplacement, StructuralState, StructureSolver};
+pub use stability_proof::StabilityProof;

@@ -1,0 +1,151 @@
+//! Analysis of a whole transition of trusses: results at evenly spaced t, findings, and the proof
+//! that the structure stands at every t.
+
+use super::blend::{LoadSelection, StructuralBlend};
+use super::error::StructureError;
+use super::findings::{self, StructureFault, StructureFinding};
+use super::limits::StructureLimits;
+use super::sample::StructureSample;
+use super::shape_faults;
+use super::solver::StructureSolver;
+use super::stability_proof::StabilityProof;
+use crate::recording::RecordingOptions;
+use crate::transition::{Frame, Transition};
+use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan, checkpoint};
+use serde::Serialize;
+use std::sync::Arc;
+
+/// Soundness of a structure at one t.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Soundness {
+    /// No fault was found.
+    Sound,
+    /// It stands and carries its loads, but exceeds a limit of use.
+    Marginal,
+    /// It falls over, breaks or buckles.
+    Unsound,
+}
+
+/// Analysis of a transition from t = 0 to t = 1.
+///
+/// ```
+/// use morphospace::structure::{FilmStructure, StructureLimits};
+/// use morphospace::{project::gallery, transition::Transition, work::progress::Silent};
+/// let spec = gallery::load("bracket-to-davit")?.spec()?;
+/// let transition = Transition::build(&spec, &Silent)?;
+/// let film = FilmStructure::of(&transition, 25, &StructureLimits::default(), &Silent)??;
+/// assert!(film.proof.as_ref().is_some_and(|proof| proof.holds()));
+/// assert!(film.samples.iter().all(|sample| sample.stands()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
+pub struct FilmStructure {
+    /// Results at evenly spaced t.
+    pub samples: Vec<StructureSample>,
+    /// For each sample, its soundness.
+    pub soundness: Vec<Soundness>,
+    /// Faults, one of each kind, the gravest first.
+    pub findings: Vec<StructureFinding>,
+    /// Examination of every t; `None` if the transition cannot be recorded.
+    pub proof: Option<StabilityProof>,
+    /// Limits of the findings.
+    pub limits: StructureLimits,
+    /// Values that were used for numbers that the designs do not give.
+    pub notes: Vec<String>,
+}
+
+/// Progress reported once all samples are analysed, in [0, 1] (heuristic).
+const SAMPLED_FRACTION: f64 = 0.7;
+
+impl FilmStructure {
+    /// Analyses a transition of two trusses at `samples` evenly spaced t, at least 2, under all
+    /// load cases.
+    ///
+    /// # Errors
+    /// The outer error is [`Cancelled`] if the work is cancelled. The inner one is
+    /// [`StructureError`] if the designs are no trusses or cannot be analysed.
+    pub fn of(
+        transition: &Transition,
+        samples: usize,
+        limits: &StructureLimits,
+        progress: &dyn Progress,
+    ) -> Result<Result<Self, StructureError>, Cancelled> {
+        let progress = &OverallProgress::new(progress);
+        let prepared = StructuralBlend::of_transition(transition).map(Arc::new);
+        let solver = prepared.and_then(|blend| StructureSolver::new(blend));
+        let mut solver = match solver {
+            Ok(solver) => solver,
+            Err(error) => return Ok(Err(error)),
+        };
+        let mut frame = transition.frame(0.0);
+        let ends = [0.0, 1.0].map(|t| analysed(&mut solver, &mut frame, t));
+        let frequencies = ends.each_ref().map(|(sample, _)| sample.frequency);
+        let least_frequency = frequencies[0].zip(frequencies[1]).map(|(a, b)| a.min(b));
+        let [first, last] = ends.map(|(_, crossings)| crossings);
+        let designed = first.intersection(&last).copied().collect();
+        let mut results = Vec::with_capacity(samples);
+        let mut faults: Vec<(f64, Vec<StructureFault>)> = Vec::with_capacity(samples);
+        for k in 0..samples {
+            let t = k as f64 / (samples - 1).max(1) as f64;
+            checkpoint(progress, "analysing", SAMPLED_FRACTION * t)?;
+            let sample = analyse(&mut solver, &mut frame, t);
+            let shape = shape_faults::find(&solver, limits, &designed);
+            faults.push((t, findings::faults(&sample, shape, limits, least_frequency)));
+            results.push(sample);
+        }
+        let proving = ProgressSpan::new(progress, SAMPLED_FRACTION, 1.0);
+        let proof = match transition.record(&RecordingOptions::default(), &proving) {
+            Ok(recording) => match StabilityProof::of(solver.blend(), &recording, &proving)? {
+                Ok(proof) => Some(proof),
+                Err(error) => return Ok(Err(error)),
+            },
+            Err(error) => {
+                crate::work::progress::check_cancelled(progress)?;
+                drop(error);
+                None
+            }
+        };
+        Ok(Ok(Self {
+            soundness: faults.iter().map(|(_, faults)| soundness(faults)).collect(),
+            findings: findings::merged(&faults),
+            samples: results,
+            proof,
+            limits: *limits,
+            notes: solver
+                .blend()
+                .notes()
+                .iter()
+                .map(ToString::to_string)
+                .collect(),
+        }))
+    }
+}
+
+/// Analyses a frame at `t` under all loads.
+fn analyse(solver: &mut StructureSolver, frame: &mut Frame, t: f64) -> StructureSample {
+    frame.seek(t);
+    let weights = StructuralBlend::pair_weights(t);
+    let places = &frame.placement().in_frame;
+    StructureSample::at(solver, t, places, &weights, LoadSelection::All)
+}
+
+/// Analyses a frame at `t`, and finds the bars that cross there.
+fn analysed(
+    solver: &mut StructureSolver,
+    frame: &mut Frame,
+    t: f64,
+) -> (StructureSample, shape_faults::CrossingBars) {
+    let sample = analyse(solver, frame, t);
+    (sample, shape_faults::crossing_bars(solver))
+}
+
+/// Returns the soundness of a structure with the given faults.
+fn soundness(faults: &[StructureFault]) -> Soundness {
+    let worst = faults.iter().map(|fault| match fault.is_unsound() {
+        true => Soundness::Unsound,
+        false => Soundness::Marginal,
+    });
+    worst.max().unwrap_or(Soundness::Sound)
+}

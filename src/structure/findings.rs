@@ -1,0 +1,380 @@
+//! Findings of the concept check: what is wrong with a structure between two designs, in the order
+//! of gravity, each with its place and its t.
+
+use super::limits::StructureLimits;
+use super::sample::{BarValue, StructureSample};
+use serde::Serialize;
+use std::fmt;
+
+/// Something that is wrong with a structure.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum StructureFault {
+    /// Parts of the structure move against each other without resistance.
+    FallsOver {
+        /// Nodes that move.
+        nodes: Vec<u32>,
+    },
+    /// The structure or a piece of it moves as a whole, because supports are missing.
+    NotHeld {
+        /// Nodes that move.
+        nodes: Vec<u32>,
+    },
+    /// A moment acts on a node at which all bars are pinned.
+    LoadOnNothing {
+        /// Nodes with a moment that nothing resists.
+        nodes: Vec<u32>,
+    },
+    /// The bars are not connected with each other.
+    InPieces {
+        /// Number of pieces.
+        pieces: usize,
+    },
+    /// The stress in a bar exceeds its strength.
+    OverStrength {
+        /// Index of the bar.
+        bar: usize,
+        /// Stress divided by strength.
+        utilisation: f64,
+    },
+    /// A bar buckles under the loads.
+    BarBuckles {
+        /// Index of the bar.
+        bar: usize,
+        /// Compression divided by Euler's load.
+        utilisation: f64,
+    },
+    /// The frame buckles as a whole, or nearly does.
+    FrameBuckles {
+        /// Load factor at which it buckles.
+        factor: f64,
+        /// Load factor that is required.
+        limit: f64,
+    },
+    /// The structure bends too far.
+    Sags {
+        /// Node that moves farthest.
+        node: u32,
+        /// Its displacement in m.
+        deflection: f64,
+        /// Span divided by the displacement.
+        span_ratio: f64,
+        /// Required span divided by the displacement.
+        limit: f64,
+    },
+    /// A bar is too slender.
+    Slender {
+        /// Index of the bar.
+        bar: usize,
+        /// Length divided by the radius of gyration.
+        slenderness: f64,
+        /// Largest allowed slenderness.
+        limit: f64,
+    },
+    /// Two bars meet at a small angle.
+    SharpAngle {
+        /// Indices of the bars.
+        bars: [usize; 2],
+        /// Angle in degrees.
+        angle_deg: f64,
+    },
+    /// A bar is shorter than its section is high.
+    Stub {
+        /// Index of the bar.
+        bar: usize,
+        /// Length in m.
+        length: f64,
+    },
+    /// The structure vibrates much more slowly than both designs.
+    Limp {
+        /// First natural frequency in Hz.
+        frequency: f64,
+        /// That of the design with the lower frequency.
+        of_designs: f64,
+    },
+    /// Two bars cross without a joint that do not cross in both designs.
+    CrossesWithoutJoint {
+        /// Indices of the bars.
+        bars: [usize; 2],
+    },
+}
+
+/// Fault of a structure with the times at which it was found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct StructureFinding {
+    /// The t at which the fault is worst.
+    pub t: f64,
+    /// First and last t at which a fault of this kind was found.
+    pub from: f64,
+    /// Last t at which a fault of this kind was found.
+    pub to: f64,
+    /// The fault where it is worst.
+    #[serde(flatten)]
+    pub fault: StructureFault,
+}
+
+impl StructureFault {
+    /// Returns the rank of the kind of fault in the order of gravity, from 0, the gravest.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        match self {
+            Self::FallsOver { .. } => 0,
+            Self::NotHeld { .. } => 1,
+            Self::LoadOnNothing { .. } => 2,
+            Self::InPieces { .. } => 3,
+            Self::OverStrength { .. } => 4,
+            Self::BarBuckles { .. } => 5,
+            Self::FrameBuckles { .. } => 6,
+            Self::Sags { .. } => 7,
+            Self::Slender { .. } => 8,
+            Self::SharpAngle { .. } => 9,
+            Self::Stub { .. } => 10,
+            Self::Limp { .. } => 11,
+            Self::CrossesWithoutJoint { .. } => 12,
+        }
+    }
+
+    /// Returns whether the structure is unsound with this fault. With other faults, it is marginal.
+    #[must_use]
+    pub fn is_unsound(&self) -> bool {
+        match self {
+            Self::FrameBuckles { factor, .. } => *factor <= 1.0,
+            fault => fault.rank() <= 5,
+        }
+    }
+
+    /// Returns a number that is larger, the worse the fault is among faults of its kind.
+    fn severity(&self) -> f64 {
+        match self {
+            Self::FallsOver { nodes } | Self::NotHeld { nodes } | Self::LoadOnNothing { nodes } => {
+                nodes.len() as f64
+            }
+            Self::InPieces { pieces } => *pieces as f64,
+            Self::OverStrength { utilisation, .. } | Self::BarBuckles { utilisation, .. } => {
+                *utilisation
+            }
+            Self::FrameBuckles { factor, .. } => -factor,
+            Self::Sags { span_ratio, .. } => -span_ratio,
+            Self::Slender {
+                slenderness, limit, ..
+            } => slenderness / limit,
+            Self::SharpAngle { angle_deg, .. } => -angle_deg,
+            Self::Stub { length, .. } => -length,
+            Self::Limp { frequency, .. } => -frequency,
+            Self::CrossesWithoutJoint { .. } => 0.0,
+        }
+    }
+}
+
+/// Returns the faults of a structure at one t. `shape` holds those of its shape; `least_frequency` is the lower first frequency of
+/// both designs, if they stand.
+pub(super) fn faults(
+    sample: &StructureSample,
+    shape: Vec<StructureFault>,
+    limits: &StructureLimits,
+    least_frequency: Option<f64>,
+) -> Vec<StructureFault> {
+    let mut faults = shape;
+    let above = |value: Option<BarValue>, limit: f64| value.filter(|v| v.value > limit);
+    if let Some(BarValue { bar, value }) = above(sample.strength, 1.0) {
+        let utilisation = value;
+        faults.push(StructureFault::OverStrength { bar, utilisation });
+    }
+    if let Some(BarValue { bar, value }) = above(sample.euler, 1.0) {
+        let utilisation = value;
+        faults.push(StructureFault::BarBuckles { bar, utilisation });
+    }
+    if let Some(factor) = sample.critical_load_factor {
+        let least = limits.least_buckling_factor;
+        let limit = if factor < least {
+            least
+        } else {
+            limits.buckling_factor
+        };
+        if factor < limit {
+            faults.push(StructureFault::FrameBuckles { factor, limit });
+        }
+    }
+    if let Some(node) = sample.deflected_node {
+        let (deflection, limit) = (sample.deflection, limits.span_to_deflection);
+        let span_ratio = sample.span / deflection;
+        if span_ratio < limit {
+            faults.push(StructureFault::Sags {
+                node,
+                deflection,
+                span_ratio,
+                limit,
+            });
+        }
+    }
+    for (value, limit) in [
+        (sample.compressed_slenderness, limits.compressed_slenderness),
+        (sample.tension_slenderness, limits.tension_slenderness),
+    ] {
+        if let Some(BarValue { bar, value }) = above(value, limit) {
+            faults.push(StructureFault::Slender {
+                bar,
+                slenderness: value,
+                limit,
+            });
+        }
+    }
+    if let (Some(frequency), Some(of_designs)) = (sample.frequency, least_frequency)
+        && frequency < limits.least_frequency_share * of_designs
+    {
+        faults.push(StructureFault::Limp {
+            frequency,
+            of_designs,
+        });
+    }
+    faults
+}
+
+/// Merges the faults of all samples: one finding for each kind, at the t where it is worst.
+pub(super) fn merged(samples: &[(f64, Vec<StructureFault>)]) -> Vec<StructureFinding> {
+    let mut findings: Vec<StructureFinding> = Vec::new();
+    for (t, fault) in samples
+        .iter()
+        .flat_map(|(t, faults)| faults.iter().map(move |f| (*t, f)))
+    {
+        match findings
+            .iter_mut()
+            .find(|finding| finding.fault.rank() == fault.rank())
+        {
+            None => findings.push(StructureFinding {
+                t,
+                from: t,
+                to: t,
+                fault: fault.clone(),
+            }),
+            Some(finding) => {
+                finding.to = t;
+                if fault.severity() > finding.fault.severity() {
+                    (finding.t, finding.fault) = (t, fault.clone());
+                }
+            }
+        }
+    }
+    findings.sort_by_key(|finding| finding.fault.rank());
+    findings
+}
+
+/// Number of nodes that a sentence lists (heuristic: more do not fit on a line).
+const LISTED_NODES: usize = 6;
+
+/// Writes "node 3" or "nodes 3, 4 and 5".
+struct NodeList<'a>(&'a [u32]);
+
+impl fmt::Display for NodeList<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let noun = if self.0.len() == 1 { "node" } else { "nodes" };
+        write!(f, "{noun} ")?;
+        let listed = &self.0[..self.0.len().min(LISTED_NODES)];
+        let more = self.0.len() - listed.len();
+        for (i, node) in listed.iter().enumerate() {
+            let is_last = i + 1 == listed.len() && more == 0;
+            let before = match i {
+                0 => "",
+                _ if is_last => " and ",
+                _ => ", ",
+            };
+            write!(f, "{before}{node}")?;
+        }
+        match more {
+            0 => Ok(()),
+            more => write!(f, " and {more} more"),
+        }
+    }
+}
+
+impl fmt::Display for StructureFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let verb = |nodes: &[u32]| if nodes.len() == 1 { "moves" } else { "move" };
+        match self {
+            Self::FallsOver { nodes } => {
+                write!(f, "falls over: {} {}", NodeList(nodes), verb(nodes))
+            }
+            Self::NotHeld { nodes } => {
+                write!(
+                    f,
+                    "not held: {} {} as a whole",
+                    NodeList(nodes),
+                    verb(nodes)
+                )
+            }
+            Self::LoadOnNothing { nodes } => {
+                write!(f, "a moment acts on the pinned {}", NodeList(nodes))
+            }
+            Self::InPieces { pieces } => write!(f, "in {pieces} pieces"),
+            Self::OverStrength { bar, utilisation } => {
+                write!(
+                    f,
+                    "bar {bar} is at {:.0} % of its strength",
+                    100.0 * utilisation
+                )
+            }
+            Self::BarBuckles { bar, utilisation } => {
+                write!(
+                    f,
+                    "bar {bar} buckles at {:.2} of the load",
+                    utilisation.recip()
+                )
+            }
+            Self::FrameBuckles { factor, limit } => {
+                write!(
+                    f,
+                    "the frame buckles at {factor:.2} of the load (limit {limit})"
+                )
+            }
+            Self::Sags {
+                node,
+                deflection,
+                span_ratio,
+                limit,
+            } => {
+                let mm = 1e3 * deflection;
+                write!(
+                    f,
+                    "node {node} moves by {mm:.1} mm, span/{span_ratio:.0} (limit span/{limit})"
+                )
+            }
+            Self::Slender {
+                bar,
+                slenderness,
+                limit,
+            } => write!(
+                f,
+                "bar {bar} has a slenderness of {slenderness:.0} (limit {limit})"
+            ),
+            Self::SharpAngle {
+                bars: [a, b],
+                angle_deg,
+            } => write!(f, "bars {a} and {b} meet at {angle_deg:.0}°"),
+            Self::Stub { bar, length } => {
+                write!(f, "bar {bar} is a stub of {:.0} mm", 1e3 * length)
+            }
+            Self::Limp {
+                frequency,
+                of_designs,
+            } => write!(
+                f,
+                "vibrates at {frequency:.2} Hz, the designs at {of_designs:.2} Hz or more"
+            ),
+            Self::CrossesWithoutJoint { bars: [a, b] } => {
+                write!(f, "bars {a} and {b} cross without a joint")
+            }
+        }
+    }
+}
+
+impl fmt::Display for StructureFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} at t = {:.3}", self.fault, self.t)?;
+        if self.from < self.to {
+            write!(f, " (found from {:.3} to {:.3})", self.from, self.to)?;
+        }
+        Ok(())
+    }
+}
