@@ -54,7 +54,7 @@ pub use svg::{InstalledFont, SvgError, installed_fonts};
 pub(crate) use truss::GRAVITY;
 pub use truss::{
     MaterialGrade, SectionShape, Truss, TrussForceUnit, TrussInputError, TrussLengthUnit,
-    TrussLineLoad, TrussLoad, TrussLoadCase, TrussMaterial, TrussParts, TrussSection,
+    TrussLineLoad, TrussLoad, TrussLoadCase, TrussMaterial, TrussParts, TrussSection, TrussSpring,
     TrussStressUnit, TrussSupport, TrussUnits,
 };
 pub use unit::LengthUnit;

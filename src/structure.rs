@@ -13,6 +13,8 @@
 //! - `solver`: statics and the first mode, with the system of equations in `pattern`
 //! - `buckling`: the load factor at which a structure buckles
 //! - `stability_proof`: proof that a recorded structure stands at every t
+//! - `sizing`: least areas of members; `truss_between`: a truss between designs, for a file
+//! - `tables`: all numbers at one t
 //! - `sample`: results at one t; `shape_faults`, `findings`, `limits`: the concept check
 //! - `film`: analysis of a whole transition; `error`: errors and notes
 
@@ -28,8 +30,11 @@ mod node_axes;
 mod pattern;
 mod sample;
 mod shape_faults;
+mod sizing;
 mod solver;
 mod stability_proof;
+mod tables;
+mod truss_between;
 
 #[cfg(test)]
 mod tests;
@@ -41,5 +46,7 @@ pub use film::{FilmStructure, Soundness};
 pub use findings::{StructureFault, StructureFinding};
 pub use limits::StructureLimits;
 pub use sample::{BarValue, StructureSample};
+pub use sizing::{SizedMembers, SizingOptions};
 pub use solver::{NodeDisplacement, StructuralState, StructureSolver};
 pub use stability_proof::StabilityProof;
+pub use tables::{BarResults, NodeResults, StructureTables};

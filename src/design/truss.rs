@@ -17,7 +17,7 @@ mod parts;
 mod units;
 
 pub use error::TrussInputError;
-pub use loads::{TrussLineLoad, TrussLoad, TrussLoadCase, TrussSupport};
+pub use loads::{TrussLineLoad, TrussLoad, TrussLoadCase, TrussSpring, TrussSupport};
 pub use members::{MaterialGrade, SectionShape, TrussMaterial, TrussSection};
 pub use parts::TrussParts;
 pub(crate) use units::GRAVITY;
@@ -170,10 +170,14 @@ impl Truss {
         parts.nodes = in_order(&self.parts.nodes);
         parts.bars.iter_mut().flatten().try_for_each(renumbered)?;
         let supports = parts.supports.iter_mut().map(|support| &mut support.node);
+        let springs = parts.springs.iter_mut().map(|spring| &mut spring.node);
         let of_cases = parts.load_cases.iter_mut().flat_map(|case| &mut case.loads);
         let loads = parts.loads.iter_mut().chain(of_cases);
         let loads = loads.map(|load| &mut load.node);
-        supports.chain(loads).try_for_each(renumbered)?;
+        supports
+            .chain(springs)
+            .chain(loads)
+            .try_for_each(renumbered)?;
         Some(Self {
             parts,
             nodes: in_order(&self.nodes),

@@ -7,7 +7,7 @@
 
 use super::element::MemberProperties;
 use super::error::{StructureError, StructureNote};
-use super::model::{ModelLoadCase, NodeHold, NodeSupport, StructuralModel};
+use super::model::{ModelLoadCase, ModelSpring, NodeHold, NodeSupport, StructuralModel};
 use crate::design::{Design, DesignForm, Truss};
 use crate::geometry::DVec2;
 use crate::transition::Transition;
@@ -31,6 +31,10 @@ pub struct StructuralBlend {
     /// For each member, its properties in each design.
     members: Vec<Vec<MemberProperties>>,
     pub(super) restraints: Vec<Restraint>,
+    /// For each design, its springs.
+    springs: Vec<Vec<ModelSpring>>,
+    /// For each member, the names of its materials in the designs.
+    materials: Vec<Vec<String>>,
     cases: Vec<BlendedLoadCase>,
     /// For each design, the length of a unit of the common frame in m.
     metres: Vec<f64>,
@@ -140,6 +144,11 @@ impl StructuralBlend {
             .map(|model| in_order_of(&bars, node_count, model))
             .collect();
         let models = models?;
+        let first_bars = bars.len();
+        let material = |bar: usize| {
+            let names = models.iter().map(|model| model.materials[bar].clone());
+            names.collect()
+        };
         let member = |bar: usize| models.iter().map(|model| model.members[bar]).collect();
         let mut notes: Vec<StructureNote> = Vec::new();
         for note in models.iter().flat_map(|model| &model.notes) {
@@ -152,6 +161,8 @@ impl StructuralBlend {
             members: (0..bars.len()).map(member).collect(),
             bars,
             restraints: restraints(&models),
+            springs: models.iter().map(|model| model.springs.clone()).collect(),
+            materials: (0..first_bars).map(material).collect(),
             cases: load_cases(&models),
             metres: models.iter().map(|model| model.metres).collect(),
             down: models.iter().map(|model| model.down).collect(),
@@ -216,6 +227,29 @@ impl StructuralBlend {
         &self.members[bar]
     }
 
+    /// Returns the springs between nodes and the ground at the given weights, each with the
+    /// stiffness of its design times the weight of the design.
+    pub(super) fn springs(&self, weights: &[f64]) -> impl Iterator<Item = ModelSpring> {
+        let designs = self.springs.iter().zip(weights);
+        designs.flat_map(|(springs, weight)| {
+            springs.iter().map(move |spring| ModelSpring {
+                stiffness: spring.stiffness * weight.max(0.0),
+                ..*spring
+            })
+        })
+    }
+
+    /// Returns the names of a member's materials, joined if designs with a weight differ.
+    pub(super) fn material_name(&self, bar: usize, weights: &[f64]) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        for (name, weight) in self.materials[bar].iter().zip(weights) {
+            if *weight != 0.0 && !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+        names.join(" to ")
+    }
+
     /// Returns the length in m of a unit of the common frame at the given weights.
     #[must_use]
     pub fn metres(&self, weights: &[f64]) -> f64 {
@@ -269,32 +303,51 @@ impl StructuralBlend {
         }
         let weight = factor * weighted(&case.self_weight, weights);
         if weight != 0.0 {
-            let down: DVec2 = self.down.iter().zip(weights).map(|(d, w)| *d * *w).sum();
-            let gravity = weight * crate::design::GRAVITY * down.normalize_or_zero();
+            let gravity = weight * crate::design::GRAVITY * mean_down(self, weights);
             for (load, own) in loads.members.iter_mut().zip(properties) {
                 *load += own.density * own.area * gravity;
             }
         }
     }
 
-    /// Spreads a load over a chain of members.
-    fn spread(&self, chain: &BlendedChain, total: DVec2, places: &[DVec2], loads: &mut [DVec2]) {
-        let span = |member: usize| {
-            let [a, b] = self.bars[member].map(|node| places[node as usize]);
-            b - a
-        };
-        let plan: f64 = chain.members.iter().map(|&m| span(m).x.abs()).sum();
-        let whole: f64 = chain.members.iter().map(|&m| span(m).length()).sum();
+    /// Returns the load per metre of a chain whose load has the given sum, and whether lengths are
+    /// measured in plan.
+    fn load_per_metre(
+        &self,
+        chain: &BlendedChain,
+        total: DVec2,
+        places: &[DVec2],
+    ) -> (DVec2, bool) {
+        let spans = chain
+            .members
+            .iter()
+            .map(|&member| self.span(member, places));
+        let (plan, whole) = spans.fold((0.0, 0.0), |(plan, whole), span| {
+            (plan + span.x.abs(), whole + span.length())
+        });
         // A chain that has become vertical has no length in plan.
         let in_plan = chain.in_plan && plan > 1e-6 * whole;
+        (total / if in_plan { plan } else { whole }, in_plan)
+    }
+
+    /// Spreads a load over a chain of members.
+    fn spread(&self, chain: &BlendedChain, total: DVec2, places: &[DVec2], loads: &mut [DVec2]) {
+        let (load, in_plan) = self.load_per_metre(chain, total, places);
         for &member in &chain.members {
-            loads[member] += if in_plan {
-                let span = span(member);
-                total * (span.x.abs() / (plan * span.length()))
+            let span = self.span(member, places);
+            let share = if in_plan {
+                span.x.abs() / span.length()
             } else {
-                total / whole
+                1.0
             };
+            loads[member] += share * load;
         }
+    }
+
+    /// Returns the vector from the first node of a member to the second.
+    fn span(&self, member: usize, places: &[DVec2]) -> DVec2 {
+        let [a, b] = self.bars[member].map(|node| places[node as usize]);
+        b - a
     }
 }
 
@@ -327,6 +380,66 @@ impl Restraint {
         };
         is_same && self.is_present.iter().all(|&is_present| is_present)
     }
+}
+
+/// Load case at given weights, in N and m.
+pub(super) struct LoadCaseAt<'a> {
+    pub(super) name: &'a str,
+    pub(super) factor: f64,
+    /// Loaded nodes with their force and moment.
+    pub(super) nodes: Vec<(u32, DVec2, f64)>,
+    /// Chains of members with their load per metre, and whether lengths are measured in plan.
+    pub(super) chains: Vec<(&'a [usize], DVec2, bool)>,
+    /// Share of the weight of the members that acts.
+    pub(super) self_weight: f64,
+}
+
+impl StructuralBlend {
+    /// Returns all load cases at the given weights, with the nodes at `places` in m. Loads that are
+    /// zero are left out.
+    pub(super) fn cases_at(&self, weights: &[f64], places: &[DVec2]) -> Vec<LoadCaseAt<'_>> {
+        let cases = self.cases.iter();
+        cases
+            .map(|case| self.case_at(case, weights, places))
+            .collect()
+    }
+
+    fn case_at<'a>(
+        &self,
+        case: &'a BlendedLoadCase,
+        weights: &[f64],
+        places: &[DVec2],
+    ) -> LoadCaseAt<'a> {
+        let nodes = case.nodes.iter().map(|(&node, designs)| {
+            let loads = designs.iter().zip(weights);
+            let (mut force, mut moment) = (DVec2::ZERO, 0.0);
+            for (load, weight) in loads {
+                force += *weight * load.0;
+                moment += weight * load.1;
+            }
+            (node, force, moment)
+        });
+        let chains = case.chains.iter().map(|chain| {
+            let total = chain.totals.iter().zip(weights).map(|(f, w)| *f * *w).sum();
+            let (load, in_plan) = self.load_per_metre(chain, total, places);
+            (chain.members.as_slice(), load, in_plan)
+        });
+        LoadCaseAt {
+            name: &case.name,
+            factor: weighted(&case.factors, weights),
+            nodes: nodes
+                .filter(|(_, f, m)| *f != DVec2::ZERO || *m != 0.0)
+                .collect(),
+            chains: chains.filter(|(_, load, _)| *load != DVec2::ZERO).collect(),
+            self_weight: weighted(&case.self_weight, weights),
+        }
+    }
+}
+
+/// Returns the direction of gravity at the given weights.
+pub(super) fn mean_down(blend: &StructuralBlend, weights: &[f64]) -> DVec2 {
+    let down: DVec2 = blend.down.iter().zip(weights).map(|(d, w)| *d * *w).sum();
+    down.normalize_or_zero()
 }
 
 /// Returns the weighted sum of numbers.

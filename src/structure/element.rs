@@ -52,6 +52,21 @@ impl MemberProperties {
         }
     }
 
+    /// Returns the properties with another area and a section of the same shape.
+    pub(super) fn with_area(&self, area: f64) -> Self {
+        let scale = if self.area > 0.0 {
+            (area / self.area).sqrt()
+        } else {
+            0.0
+        };
+        Self {
+            area,
+            radius: scale * self.radius,
+            depth: scale * self.depth,
+            ..*self
+        }
+    }
+
     /// Returns the second moment of area in m⁴.
     #[must_use]
     pub fn second_moment(&self) -> f64 {

@@ -2,7 +2,9 @@
 
 use super::element::MemberProperties;
 use super::error::{StructureError, StructureNote};
-use crate::design::{MaterialGrade, Truss, TrussLoadCase, TrussParts, TrussSection, TrussUnits};
+use crate::design::{
+    MaterialGrade, Truss, TrussLoadCase, TrussParts, TrussSection, TrussSpring, TrussUnits,
+};
 use crate::geometry::{DMat2, DVec2};
 use std::collections::{BTreeMap, HashMap};
 
@@ -23,13 +25,26 @@ pub(super) struct StructuralModel {
     /// Properties of each member.
     pub(super) members: Vec<MemberProperties>,
     /// Supported nodes with their supports.
+    /// Name of the material of each member; empty without a material.
+    pub(super) materials: Vec<String>,
     pub(super) supports: BTreeMap<u32, NodeSupport>,
+    pub(super) springs: Vec<ModelSpring>,
     pub(super) cases: Vec<ModelLoadCase>,
     /// Length of a unit of the common frame in m.
     pub(super) metres: f64,
     /// Direction of gravity.
     pub(super) down: DVec2,
     pub(super) notes: Vec<StructureNote>,
+}
+
+/// Spring between a node and the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ModelSpring {
+    pub(super) node: u32,
+    /// Direction of the spring; `None` for a spring that resists rotation.
+    pub(super) along: Option<DVec2>,
+    /// Stiffness in N/m or N m.
+    pub(super) stiffness: f64,
 }
 
 /// Support of a node.
@@ -105,7 +120,15 @@ impl StructuralModel {
             node_count: parts.nodes.len(),
             bars: parts.bars.clone(),
             members,
+            materials: (0..parts.bars.len())
+                .map(|bar| {
+                    parts
+                        .material_of(bar)
+                        .map_or_else(String::new, |m| m.name.clone())
+                })
+                .collect(),
             supports: supports(parts, turn),
+            springs: springs(parts, units, turn),
             cases,
             metres: units.metres() / placement.scale,
             down: turn * DVec2::NEG_Y,
@@ -123,12 +146,12 @@ impl StructuralModel {
                 member.fixity.reverse();
                 bar.reverse();
             }
-            (bar, member)
+            (bar, (member, self.materials[old].clone()))
         });
         let new_index: HashMap<usize, usize> =
             (order.iter().enumerate().map(|(new, &(old, _))| (old, new))).collect();
-        let (bars, members) = reordered.unzip();
-        (self.bars, self.members) = (bars, members);
+        let (bars, (members, materials)) = reordered.unzip();
+        (self.bars, self.members, self.materials) = (bars, members, materials);
         for chain in self.cases.iter_mut().flat_map(|case| &mut case.chains) {
             chain.members = chain.members.iter().map(|old| new_index[old]).collect();
             chain.members.sort_unstable();
@@ -257,6 +280,21 @@ fn supports(parts: &TrussParts, turn: DMat2) -> BTreeMap<u32, NodeSupport> {
         all.rotation |= support.fixed[2];
     }
     supports
+}
+
+/// Returns the springs in SI units.
+fn springs(parts: &TrussParts, units: TrussUnits, turn: DMat2) -> Vec<ModelSpring> {
+    let (newtons, metres) = (units.newtons(), units.metres());
+    let spring = |spring: &TrussSpring| ModelSpring {
+        node: spring.node,
+        along: spring.along.map(|along| turn * along.normalize()),
+        stiffness: spring.stiffness
+            * match spring.along {
+                Some(_) => newtons / metres,
+                None => newtons * metres,
+            },
+    };
+    parts.springs.iter().map(spring).collect()
 }
 
 /// Returns the load cases in SI units: the loads outside of load cases, then the named cases.

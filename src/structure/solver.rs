@@ -110,6 +110,8 @@ pub struct StructureSolver {
     places: Vec<DVec2>,
     axes: Vec<NodeAxes>,
     springs: Vec<GroundSpring>,
+    /// Areas that replace those of the designs; empty if none do.
+    areas: Vec<f64>,
     elements: Vec<Element>,
     loads: LoadsAt,
     /// Lumped mass of each unknown; 0 for fixed unknowns.
@@ -133,6 +135,7 @@ impl StructureSolver {
             places: vec![DVec2::ZERO; nodes],
             axes: vec![NodeAxes::FREE; nodes],
             springs: Vec::with_capacity(blend.restraints.len()),
+            areas: Vec::with_capacity(members),
             elements: Vec::with_capacity(members),
             loads: LoadsAt {
                 nodes: Vec::with_capacity(nodes),
@@ -198,6 +201,42 @@ impl StructureSolver {
         &self.axes
     }
 
+    /// Returns the springs between nodes and the ground: the node, the direction (`None` for a
+    /// rotation) and the stiffness in N/m or N m.
+    pub(super) fn springs_at(
+        &mut self,
+        places: &[DVec2],
+        weights: &[f64],
+    ) -> Vec<(u32, Option<DVec2>, f64)> {
+        self.place(places, weights);
+        self.restrain(weights);
+        let spring = |spring: &GroundSpring| {
+            let [x, y, rotation] = self.axes[spring.node as usize].global(spring.mode);
+            let along = (rotation == 0.0).then_some(DVec2::new(x, y));
+            (spring.node, along, spring.stiffness)
+        };
+        self.springs.iter().map(spring).collect()
+    }
+
+    /// Analyses the structure with other areas of its members, in m². The shapes of the sections
+    /// stay, so that radii of gyration and depths grow with the square root of the area. Without
+    /// areas, those of the designs are used.
+    ///
+    /// # Panics
+    /// As [`Self::solve`].
+    pub fn solve_with_areas(
+        &mut self,
+        areas: &[f64],
+        places: &[DVec2],
+        weights: &[f64],
+        selection: LoadSelection,
+    ) -> &StructuralState {
+        self.areas.clear();
+        self.areas.extend_from_slice(areas);
+        self.analyse(places, weights, selection);
+        &self.state
+    }
+
     /// Analyses the structure with its nodes at `places`, in units of the common frame, and with
     /// the given weights of the designs.
     ///
@@ -209,6 +248,12 @@ impl StructureSolver {
         weights: &[f64],
         selection: LoadSelection,
     ) -> &StructuralState {
+        self.areas.clear();
+        self.analyse(places, weights, selection);
+        &self.state
+    }
+
+    fn analyse(&mut self, places: &[DVec2], weights: &[f64], selection: LoadSelection) {
         assert!(
             weights.len() >= self.blend.design_count(),
             "a weight for each design"
@@ -231,7 +276,6 @@ impl StructureSolver {
             false => eigenvalue.sqrt() / TAU,
         };
         self.solve_statics();
-        &self.state
     }
 
     /// Writes the places of the nodes in m and the properties of the members.
@@ -242,6 +286,9 @@ impl StructureSolver {
         }
         for (bar, properties) in self.state.properties.iter_mut().enumerate() {
             *properties = self.blend.properties(bar, weights);
+            if let Some(&area) = self.areas.get(bar) {
+                *properties = properties.with_area(area);
+            }
         }
     }
 
@@ -268,11 +315,18 @@ impl StructureSolver {
         ];
         let is_spring = |restraint: &RestraintAt| !restraint.is_rigid() && restraint.presence > 0.0;
         let springs = blend.restraints.iter().map(|all| all.at(weights));
-        self.springs.extend(
-            springs
-                .filter(is_spring)
-                .map(|one| one.spring(&self.axes[one.node as usize], k0)),
-        );
+        let axes = &self.axes;
+        let of_supports = springs
+            .filter(is_spring)
+            .map(|one| one.spring(&axes[one.node as usize], k0));
+        let own = blend.springs(weights).map(|spring| GroundSpring {
+            node: spring.node,
+            mode: spring.along.map_or([0.0, 0.0, 1.0], |along| {
+                axes[spring.node as usize].local(along, 0.0)
+            }),
+            stiffness: spring.stiffness,
+        });
+        self.springs.extend(of_supports.chain(own));
     }
 
     /// Assembles stiffnesses and masses. Returns a bound on the largest eigenvalue.

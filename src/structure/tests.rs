@@ -1,6 +1,7 @@
 //! Tests of the structural analysis against reference models, closed solutions and identities.
 
 mod blends;
+mod films;
 mod mechanisms;
 mod proofs;
 mod reference_models;

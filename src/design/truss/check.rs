@@ -81,6 +81,12 @@ impl TrussParts {
             case.factor.is_finite()
         })?;
         let is_number = |&x: &f64| x.is_finite() && x >= 0.0;
+        check_items("spring", NOT_NEGATIVE, &self.springs, |spring| {
+            is_number(&spring.stiffness)
+                && spring
+                    .along
+                    .is_none_or(|along| along.try_normalize().is_some())
+        })?;
         check_items("area", NOT_NEGATIVE, &self.areas, is_number)?;
         check_items("material", POSITIVE, &self.materials, |m| {
             [m.youngs_modulus, m.density, m.strength]
@@ -125,6 +131,8 @@ impl TrussParts {
         check_references("bar", ends, "node", nodes)?;
         let supports = self.supports.iter().map(|s| s.node);
         check_references("support", supports.enumerate(), "node", nodes)?;
+        let springs = self.springs.iter().map(|s| s.node);
+        check_references("spring", springs.enumerate(), "node", nodes)?;
         for loads in self.lists_of_loads() {
             let loads = loads.iter().map(|l| l.node);
             check_references("load", loads.enumerate(), "node", nodes)?;

@@ -41,6 +41,19 @@ fn without_free_rotation<S: Serializer>(fixed: &[bool; 3], to: S) -> Result<S::O
     fixed[..entries].serialize(to)
 }
 
+/// Spring between a node and the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrussSpring {
+    /// Node index, counted from 0.
+    pub node: u32,
+    /// Direction of the spring; `None` for a spring that resists rotation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub along: Option<DVec2>,
+    /// Stiffness, not negative: force per length, or moment per radian.
+    pub stiffness: f64,
+}
+
 /// Force and moment at a node.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

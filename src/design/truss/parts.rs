@@ -1,6 +1,6 @@
 //! The data of a truss as stored in its JSON file.
 
-use super::loads::{TrussLoad, TrussLoadCase, TrussSupport, is_zero};
+use super::loads::{TrussLoad, TrussLoadCase, TrussSpring, TrussSupport, is_zero};
 use super::members::{TrussMaterial, TrussSection};
 use super::units::TrussUnits;
 use crate::colour::Rgb;
@@ -21,6 +21,9 @@ pub struct TrussParts {
     /// Supports, each with its node.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<TrussSupport>,
+    /// Springs between nodes and the ground.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub springs: Vec<TrussSpring>,
     /// Loads at nodes that belong to no named load case.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<TrussLoad>,
