@@ -15,6 +15,7 @@ mod new;
 mod options;
 mod output;
 mod render;
+mod structure;
 mod terminal;
 mod value_parsers;
 
@@ -41,6 +42,7 @@ Examples:
   morphospace render a.svg b.svg c.svg d.svg --map 9x9 --out map.png
   morphospace catalogue bottles.morph --out saved
   morphospace check bridge.morph --json
+  morphospace check girder.json arch.json --structure
   morphospace check --pairs pairs.csv --out report.csv --sheet sheet.png";
 
 /// Explore the space between designs.

@@ -42,7 +42,7 @@ mod tests;
 pub use blend::{LoadSelection, StructuralBlend};
 pub use element::{MemberForces, MemberProperties};
 pub use error::{StructureError, StructureNote};
-pub use film::{FilmStructure, Soundness};
+pub use film::{FilmStructure, Soundness, TransitionStructure};
 pub use findings::{StructureFault, StructureFinding};
 pub use limits::StructureLimits;
 pub use sample::{BarValue, StructureSample};

@@ -13,6 +13,7 @@ use super::error::CliError;
 use super::inputs::InputArgs;
 use super::laboratory::{MeasuringArgs, PairBatchArgs, SpaceMeasurement, text};
 use super::output;
+use super::structure::StructureArgs;
 use super::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -31,6 +32,9 @@ pub(super) struct CheckArgs {
     #[arg(long, conflicts_with = "pairs")]
     map: bool,
 
+    #[command(flatten)]
+    structure: StructureArgs,
+
     /// Print JSON instead of a table
     #[arg(long)]
     json: bool,
@@ -41,6 +45,9 @@ pub(super) struct CheckArgs {
 
 pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
     match (&args.inputs, &args.batch) {
+        (Some(inputs), None) if args.structure.structure => {
+            args.structure.check(inputs, args.measuring.method(), args.json)
+        }
         (Some(inputs), None) if args.map => check_space(args, inputs),
         (Some(inputs), None) => check_segments(args, inputs),
         (None, Some(batch)) => check_pairs(args, batch),

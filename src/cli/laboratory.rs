@@ -27,6 +27,7 @@ mod summary;
 mod table;
 mod text;
 
+pub(super) use number::{NumberLines, short};
 pub(super) use pairs::PairBatchArgs;
 pub(super) use report::MeasuringArgs;
 pub(super) use space::SpaceMeasurement;

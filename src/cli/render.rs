@@ -27,6 +27,7 @@ use super::error::CliError;
 use super::inputs::{InputArgs, InputProject, OpenedProject};
 use super::options::MethodArgs;
 use super::output;
+use super::structure;
 use super::terminal::Terminal;
 use super::value_parsers::{BackgroundColour, background, grid, one_of, range};
 
@@ -196,7 +197,7 @@ impl RenderArgs {
 fn out_help() -> String {
     format!(
         "Output file: NAME{} (with --at, --sheet, --map or --compare), {}, name-####.png or a \
-         folder (numbered images)",
+         folder (numbered images); with --at, NAME.json is the truss at this t",
         extension_list::<StillKind>(),
         extension_list::<FilmKind>()
     )
@@ -204,6 +205,9 @@ fn out_help() -> String {
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let target = ExportTarget::of_path(&args.out).map_err(CliError::usage)?;
+    if let (&[t], ExportTarget::Film(FilmKind::Lottie, path)) = (args.at.as_slice(), &target) {
+        return write_truss_at(args, t, path);
+    }
     let still_content = still_content(args, &target)?;
     let target = if still_content.is_none() {
         target.preferring_film()
@@ -246,6 +250,28 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     report_notes(import_notes(&opened.loaded).chain(built));
     report_written(&written);
     Ok(())
+}
+
+/// Writes the truss at `t` as a design of its own.
+fn write_truss_at(args: &RenderArgs, t: f64, path: &Path) -> Result<(), CliError> {
+    if !t.is_finite() {
+        return Err(not_finite(t));
+    }
+    let terminal = Terminal::new();
+    let overall = OverallProgress::new(&terminal);
+    let input = args.inputs.read(&args.method, &overall)?;
+    input.files.check_outputs([path])?;
+    let opened = input.open(&overall)?;
+    structure::write_truss(&opened.sequence, t, path)?;
+    drop(terminal);
+    report_notes(import_notes(&opened.loaded));
+    report_written(&[path.to_owned()]);
+    Ok(())
+}
+
+/// Returns the error for a t that is not a number.
+fn not_finite(t: f64) -> CliError {
+    CliError::Usage(format!("--at {t} is invalid: t must be a finite number"))
 }
 
 /// Returns the notes on the import of all designs, each with the name of its design.
@@ -293,9 +319,7 @@ fn still_content(
 ) -> Result<Option<StillContent>, CliError> {
     let count = args.sheet.map(|count| count as usize);
     if let Some(t) = args.at.iter().find(|t| !t.is_finite()) {
-        return Err(CliError::Usage(format!(
-            "--at {t} is invalid: t must be a finite number"
-        )));
+        return Err(not_finite(*t));
     }
     if let Some(grid) = args.map {
         return Ok(Some(StillContent::Map(grid)));

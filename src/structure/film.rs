@@ -7,8 +7,11 @@ use super::findings::{self, StructureFault, StructureFinding};
 use super::limits::StructureLimits;
 use super::sample::StructureSample;
 use super::shape_faults;
-use super::solver::StructureSolver;
+use super::sizing::{SizedMembers, SizingOptions};
+use super::solver::{StructuralState, StructureSolver};
 use super::stability_proof::StabilityProof;
+use super::tables::StructureTables;
+use crate::design::{Truss, TrussInputError};
 use crate::recording::RecordingOptions;
 use crate::transition::{Frame, Transition};
 use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan, checkpoint};
@@ -25,6 +28,87 @@ pub enum Soundness {
     Marginal,
     /// It falls over, breaks or buckles.
     Unsound,
+}
+
+/// Structure of a transition between two trusses, analysed under all load cases at any t.
+///
+/// ```
+/// use morphospace::structure::TransitionStructure;
+/// use morphospace::{project::gallery, transition::Transition, work::progress::Silent};
+/// let spec = gallery::load("bracket-to-davit")?.spec()?;
+/// let transition = Transition::build(&spec, &Silent)?;
+/// let mut structure = TransitionStructure::new(&transition)?;
+/// assert!(structure.sample(0.5).stands());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct TransitionStructure {
+    solver: StructureSolver,
+    frame: Frame,
+}
+
+impl TransitionStructure {
+    /// Prepares the analysis of a transition.
+    ///
+    /// # Errors
+    /// [`StructureError`] if the designs are no trusses or cannot be analysed.
+    pub fn new(transition: &Transition) -> Result<Self, StructureError> {
+        let blend = StructuralBlend::of_transition(transition)?;
+        Ok(Self {
+            solver: StructureSolver::new(Arc::new(blend))?,
+            frame: transition.frame(0.0),
+        })
+    }
+
+    /// Returns the structures of both designs.
+    #[must_use]
+    pub fn blend(&self) -> &Arc<StructuralBlend> {
+        self.solver.blend()
+    }
+
+    /// Analyses the structure at `t`. Allocates nothing.
+    pub fn solve(&mut self, t: f64) -> &StructuralState {
+        self.frame.seek(t);
+        let weights = StructuralBlend::pair_weights(t);
+        let places = &self.frame.placement().in_frame;
+        self.solver.solve(places, &weights, LoadSelection::All)
+    }
+
+    /// Returns the measures of the structure at `t`.
+    pub fn sample(&mut self, t: f64) -> StructureSample {
+        self.frame.seek(t);
+        let weights = StructuralBlend::pair_weights(t);
+        let places = &self.frame.placement().in_frame;
+        StructureSample::at(&mut self.solver, t, places, &weights, LoadSelection::All)
+    }
+
+    /// Returns all numbers at `t`, by bar and by node.
+    pub fn tables(&mut self, t: f64) -> StructureTables {
+        self.frame.seek(t);
+        let weights = StructuralBlend::pair_weights(t);
+        let places = &self.frame.placement().in_frame;
+        StructureTables::at(&mut self.solver, t, places, &weights, LoadSelection::All)
+    }
+
+    /// Sizes the members at `t`; `None` for a mechanism, or without loads.
+    pub fn sized(&mut self, t: f64, options: &SizingOptions) -> Option<SizedMembers> {
+        self.frame.seek(t);
+        let weights = StructuralBlend::pair_weights(t);
+        let places = &self.frame.placement().in_frame;
+        self.solver
+            .size_members(places, &weights, LoadSelection::All, options)
+    }
+
+    /// Returns the truss at `t`, to be written to a file.
+    ///
+    /// # Errors
+    /// As [`StructuralBlend::truss_between`].
+    pub fn truss(&mut self, t: f64) -> Result<Truss, TrussInputError> {
+        self.frame.seek(t);
+        let weights = StructuralBlend::pair_weights(t);
+        let places = &self.frame.placement().in_frame;
+        self.solver.blend().truss_between(places, &weights)
+    }
 }
 
 /// Analysis of a transition from t = 0 to t = 1.
@@ -73,14 +157,14 @@ impl FilmStructure {
         progress: &dyn Progress,
     ) -> Result<Result<Self, StructureError>, Cancelled> {
         let progress = &OverallProgress::new(progress);
-        let prepared = StructuralBlend::of_transition(transition).map(Arc::new);
-        let solver = prepared.and_then(|blend| StructureSolver::new(blend));
-        let mut solver = match solver {
-            Ok(solver) => solver,
+        let mut structure = match TransitionStructure::new(transition) {
+            Ok(structure) => structure,
             Err(error) => return Ok(Err(error)),
         };
-        let mut frame = transition.frame(0.0);
-        let ends = [0.0, 1.0].map(|t| analysed(&mut solver, &mut frame, t));
+        let ends = [0.0, 1.0].map(|t| {
+            let sample = structure.sample(t);
+            (sample, shape_faults::crossing_bars(&structure.solver))
+        });
         let frequencies = ends.each_ref().map(|(sample, _)| sample.frequency);
         let least_frequency = frequencies[0].zip(frequencies[1]).map(|(a, b)| a.min(b));
         let [first, last] = ends.map(|(_, crossings)| crossings);
@@ -90,14 +174,14 @@ impl FilmStructure {
         for k in 0..samples {
             let t = k as f64 / (samples - 1).max(1) as f64;
             checkpoint(progress, "analysing", SAMPLED_FRACTION * t)?;
-            let sample = analyse(&mut solver, &mut frame, t);
-            let shape = shape_faults::find(&solver, limits, &designed);
+            let sample = structure.sample(t);
+            let shape = shape_faults::find(&structure.solver, limits, &designed);
             faults.push((t, findings::faults(&sample, shape, limits, least_frequency)));
             results.push(sample);
         }
         let proving = ProgressSpan::new(progress, SAMPLED_FRACTION, 1.0);
         let proof = match transition.record(&RecordingOptions::default(), &proving) {
-            Ok(recording) => match StabilityProof::of(solver.blend(), &recording, &proving)? {
+            Ok(recording) => match StabilityProof::of(structure.blend(), &recording, &proving)? {
                 Ok(proof) => Some(proof),
                 Err(error) => return Ok(Err(error)),
             },
@@ -113,7 +197,7 @@ impl FilmStructure {
             samples: results,
             proof,
             limits: *limits,
-            notes: solver
+            notes: structure
                 .blend()
                 .notes()
                 .iter()
@@ -121,24 +205,6 @@ impl FilmStructure {
                 .collect(),
         }))
     }
-}
-
-/// Analyses a frame at `t` under all loads.
-fn analyse(solver: &mut StructureSolver, frame: &mut Frame, t: f64) -> StructureSample {
-    frame.seek(t);
-    let weights = StructuralBlend::pair_weights(t);
-    let places = &frame.placement().in_frame;
-    StructureSample::at(solver, t, places, &weights, LoadSelection::All)
-}
-
-/// Analyses a frame at `t`, and finds the bars that cross there.
-fn analysed(
-    solver: &mut StructureSolver,
-    frame: &mut Frame,
-    t: f64,
-) -> (StructureSample, shape_faults::CrossingBars) {
-    let sample = analyse(solver, frame, t);
-    (sample, shape_faults::crossing_bars(solver))
 }
 
 /// Returns the soundness of a structure with the given faults.

@@ -4,7 +4,7 @@ use crate::io::sanitize::SanitizedLine;
 
 /// Formats a number with at most three decimals, without trailing zeros. From 1 on, it has at least
 /// four significant digits. Below 5e-4 and from 1e7 on, it has an exponent and two digits.
-pub(super) fn short(x: f64) -> String {
+pub(in crate::cli) fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 || !x.is_finite() {
         return format!("{x:.0}");
@@ -29,7 +29,7 @@ pub(super) fn short(x: f64) -> String {
 
 /// Text of a report, assembled line by line.
 #[derive(Default)]
-pub(super) struct NumberLines(pub String);
+pub(in crate::cli) struct NumberLines(pub String);
 
 impl NumberLines {
     /// Adds a line, without trailing spaces and control characters.
