@@ -14,7 +14,14 @@ from pathlib import Path
 
 import gallery_kit as kit
 
-STEEL = [{"name": "steel", "youngs_modulus": 2.1e11, "density": 7850.0}]
+# Metres and kilonewtons. The numbers of S355 are those of the standard grade.
+UNITS = {"length": "m", "force": "kN"}
+STEEL = [{"name": "steel S355"}]
+TUBE = {"name": "tube", "shape": {"tube": {"ratio": 20}}}
+IPE_240 = {"name": "IPE 240", "shape": "i", "second_moment": 3.892e-5, "depth": 0.24}
+IPE_300 = {"name": "IPE 300", "area": 5.38e-3, "shape": "i", "second_moment": 8.356e-5, "depth": 0.3}
+HEA_240 = {"name": "HEA 240", "area": 7.68e-3, "shape": "i", "second_moment": 7.763e-5, "depth": 0.23}
+SELF_WEIGHT = {"name": "self-weight", "self_weight": True}
 GALLERY = Path(__file__).resolve().parent.parent / "assets" / "gallery"
 
 
@@ -55,13 +62,18 @@ def bracket_and_davit(folder):
             panels.append((i, under[i + 1], i + 1))
     extra = {
         "supports": [{"node": 0, "fixed": [True, True]}, {"node": under[0], "fixed": [True, True]}],
-        "loads": [{"node": bays, "force": [0.0, -10.0]}],
+        "load_cases": [
+            {"name": "hoist", "loads": [{"node": bays, "force": [0.0, -60.0]}]},
+            SELF_WEIGHT,
+        ],
         "areas": [0.003] * (2 * bays) + [0.0015] * (len(bars) - 2 * bays),
+        "sections": [TUBE],
+        "bar_sections": [0] * len(bars),
         "materials": STEEL,
         "bar_materials": [0] * len(bars),
     }
-    kit.truss(folder / "bracket.json", top + bottom, panels, bars, extra)
-    kit.truss(folder / "davit.json", outer + inner, panels, bars, extra)
+    kit.truss(folder / "bracket.json", UNITS, top + bottom, panels, bars, extra)
+    kit.truss(folder / "davit.json", UNITS, outer + inner, panels, bars, extra)
 
 
 def girders(folder):
@@ -91,20 +103,95 @@ def girders(folder):
             panels += [(i, i + 1, over[i + 1]), (i, over[i + 1], over[i])]
     extra = {
         "supports": [{"node": 0, "fixed": [True, True]}, {"node": bays, "fixed": [False, True]}],
-        "loads": [{"node": i, "force": [0.0, -5.0]} for i in range(1, bays)],
+        "load_cases": [
+            {"name": "deck", "line_loads": [{"bars": list(range(bays)), "force": [0.0, -15.0]}]},
+            SELF_WEIGHT,
+        ],
         "areas": [0.006] * (2 * bays) + [0.003] * (len(bars) - 2 * bays),
+        "sections": [TUBE],
+        "bar_sections": [0] * len(bars),
         "materials": STEEL,
         "bar_materials": [0] * len(bars),
     }
-    kit.truss(folder / "girder.json", lower + upper, panels, bars, extra)
-    kit.truss(folder / "arch.json", intrados + extrados, panels, bars, extra)
+    kit.truss(folder / "girder.json", UNITS, lower + upper, panels, bars, extra)
+    kit.truss(folder / "arch.json", UNITS, intrados + extrados, panels, bars, extra)
     sag = [math.sin(math.pi * i / bays) for i in chord]
     camelback = [complex(2 * i, 1.6 + 3.4 * sag[i]) for i in range(1, bays)]
-    kit.truss(folder / "camelback.json", lower + camelback, panels, bars, extra)
+    kit.truss(folder / "camelback.json", UNITS, lower + camelback, panels, bars, extra)
     belly = [complex(2 * i, -4.2 * sag[i]) for i in chord]
     deck = [complex(2 * i, 0.9 * sag[i]) for i in range(1, bays)]
-    kit.truss(folder / "fish-belly.json", belly + deck, panels, bars, extra)
+    kit.truss(folder / "fish-belly.json", UNITS, belly + deck, panels, bars, extra)
     print(f"girder, arch, camelback and fish-belly: {len(bars)} bars")
+
+
+def bowstring(folder):
+    """A Pratt girder of 8 panels, and a bowstring: an arch tied by its deck."""
+    bays, panel = 8, 3.0
+    lower = [complex(panel * i, 0) for i in range(bays + 1)]
+    over = {i: bays + i for i in range(1, bays)}
+    bars = [(i, i + 1) for i in range(bays)] + [(over[i], over[i + 1]) for i in range(1, bays - 1)]
+    bars += [(0, over[1]), (over[bays - 1], bays)] + [(i, over[i]) for i in range(1, bays)]
+    chords = len(bars) - (bays - 1)
+    panels = [(0, 1, over[1]), (bays - 1, bays, over[bays - 1])]
+    for i in range(1, bays - 1):
+        first, second = ((over[i], i + 1), (i, over[i + 1]))[:: 1 if i < bays // 2 else -1]
+        bars.append(first)
+        panels += [(i, i + 1, over[i if first[0] > bays else i + 1])]
+        panels += [(i + 1, over[i + 1], over[i]) if first[0] > bays else (i, over[i + 1], over[i])]
+    webs = len(bars) - chords
+    for name, height, upper_area, web_area in (
+        ("pratt", lambda _: 3.0, 0.0048, 0.0024),
+        ("bowstring", lambda i: 4.8 * (1 - (2 * i / bays - 1) ** 2), 0.0052, 0.0010),
+    ):
+        upper = [complex(panel * i, height(i)) for i in range(1, bays)]
+        extra = {
+            "supports": [
+                {"node": 0, "fixed": [True, True]},
+                {"node": bays, "fixed": [False, True]},
+            ],
+            "load_cases": [
+                {"name": "deck", "line_loads": [{"bars": list(range(bays)), "force": [0.0, -20.0]}]},
+                SELF_WEIGHT,
+            ],
+            "areas": [0.00391] * bays + [upper_area] * (chords - bays) + [web_area] * webs,
+            "sections": [IPE_240, TUBE],
+            "bar_sections": [0] * bays + [1] * (len(bars) - bays),
+            "materials": STEEL,
+            "bar_materials": [0] * len(bars),
+        }
+        kit.truss(folder / f"{name}.json", UNITS, lower + upper, panels, bars, extra)
+    print(f"pratt and bowstring: {len(bars)} bars")
+
+
+def portal_frames(folder):
+    """Two portal frames with rigid corners: a hall on pinned feet, a barn on fixed feet."""
+    bars = [(0, 1), (1, 2), (2, 3), (3, 4)]
+    for name, half_width, eaves, ridge, is_fixed in (
+        ("hall", 8.0, 5.0, 6.2, False),
+        ("barn", 6.0, 3.6, 9.0, True),
+    ):
+        nodes = [-half_width, complex(-half_width, eaves), complex(0, ridge)]
+        nodes += [complex(half_width, eaves), half_width]
+        foot = [True, True, True] if is_fixed else [True, True]
+        extra = {
+            "fixity": 1,
+            "supports": [{"node": node, "fixed": foot} for node in (0, 4)],
+            "load_cases": [
+                {
+                    "name": "snow",
+                    "factor": 1.5,
+                    "line_loads": [{"bars": [1, 2], "force": [0.0, -4.0], "in_plan": True}],
+                },
+                {"name": "wind", "line_loads": [{"bars": [0], "force": [2.0, 0.0]}]},
+                {"factor": 1.35, **SELF_WEIGHT},
+            ],
+            "sections": [HEA_240, IPE_300],
+            "bar_sections": [0, 1, 1, 0],
+            "materials": STEEL,
+            "bar_materials": [0] * len(bars),
+        }
+        kit.truss(folder / f"{name}.json", UNITS, [complex(p) for p in nodes], [], bars, extra)
+    print(f"hall and barn: {len(bars)} members")
 
 
 def bridges(folder):
@@ -490,6 +577,8 @@ def main():
         triangles,
         bracket_and_davit,
         girders,
+        bowstring,
+        portal_frames,
         bridges,
         vessels,
         cantilevers,

@@ -316,10 +316,11 @@ def packed(items):
     return ",\n".join(lines)
 
 
-def truss(path, nodes, panels, bars, extra):
-    """Writes nodes, bars and extra fields as JSON; the panels are only checked."""
+def truss(path, units, nodes, panels, bars, extra):
+    """Writes units, nodes, bars and extra fields as JSON; the panels are only checked."""
     require_positive(path.name, nodes, panels)
     rows = {
+        "units": units,
         "nodes": [[round(p.real, 4) + 0.0, round(p.imag, 4) + 0.0] for p in nodes],
         "bars": [list(bar) for bar in bars],
         **extra,
@@ -327,7 +328,7 @@ def truss(path, nodes, panels, bars, extra):
     parts = []
     for key, items in rows.items():
         text = json.dumps(items)
-        if len(text) > 76:
+        if len(text) > 76 and isinstance(items, list):
             text = "[\n" + packed(items) + "\n  ]"
         parts.append(f'  "{key}": {text}')
     path.write_text("{\n" + ",\n".join(parts) + "\n}\n")

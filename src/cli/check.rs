@@ -46,7 +46,8 @@ pub(super) struct CheckArgs {
 pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
     match (&args.inputs, &args.batch) {
         (Some(inputs), None) if args.structure.structure => {
-            args.structure.check(inputs, args.measuring.method(), args.json)
+            args.structure
+                .check(inputs, args.measuring.method(), args.json)
         }
         (Some(inputs), None) if args.map => check_space(args, inputs),
         (Some(inputs), None) => check_segments(args, inputs),

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use crate::io::escape::csv_line;
 use crate::io::atomic_file;
+use crate::io::escape::csv_line;
 use crate::structure::{
     BarResults, FilmStructure, SizingOptions, StructureLimits, StructureSample, StructureTables,
     TransitionStructure,
@@ -37,7 +37,13 @@ pub(super) struct StructureArgs {
     pub structure: bool,
 
     /// With --structure: print all numbers of each bar and node at these t
-    #[arg(long, value_name = "T", requires = "structure", allow_negative_numbers = true, value_delimiter = ',')]
+    #[arg(
+        long,
+        value_name = "T",
+        requires = "structure",
+        allow_negative_numbers = true,
+        value_delimiter = ','
+    )]
     at: Vec<f64>,
 
     /// With --structure and --at: write the numbers of each bar to this CSV file
@@ -102,8 +108,9 @@ impl StructureArgs {
             let within = |t: &&f64| (index as f64..=index as f64 + 1.0).contains(*t);
             let is_only = !opened.loaded.is_segment();
             let times = self.at.iter().filter(|t| is_only || within(t));
-            reports[index].tables =
-                times.map(|t| structure.tables(t - if is_only { 0.0 } else { index as f64 })).collect();
+            reports[index].tables = times
+                .map(|t| structure.tables(t - if is_only { 0.0 } else { index as f64 }))
+                .collect();
             Ok(())
         })?;
         if let Some(path) = &self.members {
@@ -132,8 +139,19 @@ fn write_members<'a>(
     tables: impl Iterator<Item = &'a StructureTables>,
 ) -> Result<(), CliError> {
     let mut csv = csv_line([
-        "t", "bar", "first_node", "second_node", "length_m", "area_m2", "axial_n", "shear_n",
-        "moment_nm", "stress_pa", "utilisation", "euler_utilisation", "slenderness",
+        "t",
+        "bar",
+        "first_node",
+        "second_node",
+        "length_m",
+        "area_m2",
+        "axial_n",
+        "shear_n",
+        "moment_nm",
+        "stress_pa",
+        "utilisation",
+        "euler_utilisation",
+        "slenderness",
     ]);
     for table in tables {
         for bar in &table.bars {
@@ -220,7 +238,11 @@ impl StructureReport {
         let row = |lines: &mut NumberLines, name: &str, text: &str| {
             lines.line(&format!("{name:<12} {text}"));
         };
-        row(&mut lines, "structure", &format!("{} bars, {} nodes", self.bars, self.nodes));
+        row(
+            &mut lines,
+            "structure",
+            &format!("{} bars, {} nodes", self.bars, self.nodes),
+        );
         row(&mut lines, "stability", &self.stability());
         let count = self.film.findings.len();
         let summary = match count {
@@ -228,14 +250,22 @@ impl StructureReport {
             1 => "1 fault".to_owned(),
             count => format!("{count} faults, the gravest first"),
         };
-        row(&mut lines, "check", &format!("{summary} ({} values of t)", self.film.samples.len()));
+        row(
+            &mut lines,
+            "check",
+            &format!("{summary} ({} values of t)", self.film.samples.len()),
+        );
         for finding in &self.film.findings {
             row(&mut lines, "", &finding.to_string());
         }
         for note in &self.film.notes {
             row(&mut lines, "note", note);
         }
-        row(&mut lines, "note", "a concept check without partial factors, not a check by a building code");
+        row(
+            &mut lines,
+            "note",
+            "a concept check without partial factors, not a check by a building code",
+        );
         lines.gap();
         self.table(&mut lines);
         for table in &self.tables {
@@ -248,16 +278,25 @@ impl StructureReport {
     /// Returns in words whether the structure stands at every t.
     fn stability(&self) -> String {
         match &self.film.proof {
-            None => "not examined between the analysed t, because the motion cannot be recorded".to_owned(),
+            None => "not examined between the analysed t, because the motion cannot be recorded"
+                .to_owned(),
             Some(proof) => match proof.fails_at {
                 None => format!(
                     "stands at every t: proved on {} intervals of t with {} factorisations",
                     proof.intervals, proof.factorisations
                 ),
                 Some(t) => {
-                    let nodes: Vec<String> = proof.moving_nodes.iter().map(u32::to_string).collect();
-                    let verb = if proof.is_mechanism { "falls over" } else { "not proved to stand" };
-                    format!("{verb} at t = {t:.6}; nodes that move: {}", nodes.join(", "))
+                    let nodes: Vec<String> =
+                        proof.moving_nodes.iter().map(u32::to_string).collect();
+                    let verb = if proof.is_mechanism {
+                        "falls over"
+                    } else {
+                        "not proved to stand"
+                    };
+                    format!(
+                        "{verb} at t = {t:.6}; nodes that move: {}",
+                        nodes.join(", ")
+                    )
                 }
             },
         }
@@ -268,11 +307,21 @@ impl StructureReport {
         lines.cells(
             ("t", 8),
             [
-                "mass kg", "deflection", "span/", "strength", "Euler", "buckling", "f1 Hz",
-                "energy J", "sized kg",
+                "mass kg",
+                "deflection",
+                "span/",
+                "strength",
+                "Euler",
+                "buckling",
+                "f1 Hz",
+                "energy J",
+                "sized kg",
             ],
         );
-        lines.cells(("", 8), ["", "mm", "deflection", "used", "used", "factor", "", "", ""]);
+        lines.cells(
+            ("", 8),
+            ["", "mm", "deflection", "used", "used", "factor", "", "", ""],
+        );
         let step = (self.film.samples.len() - 1) / (ROWS - 1);
         for (sample, sized) in self.film.samples.iter().step_by(step).zip(&self.sized) {
             let t = format!("{:.3}", sample.t);
@@ -306,7 +355,16 @@ fn bars_text(table: &StructureTables, lines: &mut NumberLines) {
     lines.line(&format!("bars at t = {:.3}", table.t));
     lines.cells(
         ("bar", 12),
-        ["length m", "area mm²", "axial kN", "moment kNm", "stress MPa", "strength", "Euler", "slenderness"],
+        [
+            "length m",
+            "area mm²",
+            "axial kN",
+            "moment kNm",
+            "stress MPa",
+            "strength",
+            "Euler",
+            "slenderness",
+        ],
     );
     let percent = |value: f64| format!("{:.0} %", 100.0 * value);
     for bar in &table.bars {

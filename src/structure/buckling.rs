@@ -4,12 +4,14 @@
 //! stiffness of the axial forces (Przemieniecki 1968, section 15.3). Each member is divided into
 //! [`PARTS`] elements; with these, a pinned column buckles at 1.0005 times Euler's load. The ends of
 //! members have rotations of their own, joined to the nodes by rotational springs, so that pinned
-//! members buckle between their nodes.
+//! members buckle between their nodes; only rigid ends share the rotation of their node.
 //!
 //! K + α K_G is positive definite exactly below α_cr. α_cr is bracketed by factoring, then refined
 //! by inverse iteration.
 
 use super::element::{Element, MemberProperties};
+use super::node_axes::GroundSpring;
+use super::pattern::NODE_ENTRIES;
 use super::solver::StructureSolver;
 use crate::geometry::DVec2;
 use crate::numerics::{PatternCholesky, PatternWorkspace};
@@ -18,9 +20,8 @@ use crate::numerics::{PatternCholesky, PatternWorkspace};
 /// 0.05 %).
 const PARTS: usize = 4;
 
-/// Largest fixity of a joint, which replaces a rigid joint (numerical tolerance: the spring is 3e9
-/// times as stiff as the member).
-const MAX_FIXITY: f64 = 1.0 - 1e-9;
+/// Fixity from which a joint is rigid (numerical tolerance: a stiffer spring would cost digits).
+const RIGID_FROM: f64 = 1.0 - 1e-6;
 
 /// Largest load factor that is searched (numerical tolerance: beyond it, compression is rounding).
 const MAX_FACTOR: f64 = 1e9;
@@ -45,8 +46,10 @@ struct BucklingElement {
 /// Structure whose members are divided into elements.
 struct BucklingModel {
     elements: Vec<BucklingElement>,
-    /// Rotational springs: two unknowns and a stiffness.
+    /// Rotational springs between members and nodes: two unknowns and a stiffness.
     springs: Vec<([usize; 2], f64)>,
+    /// Springs between nodes and the ground, in the axes of the nodes.
+    ground: Vec<GroundSpring>,
     is_fixed: Vec<bool>,
     pattern: PatternCholesky,
     memory: PatternWorkspace,
@@ -112,13 +115,21 @@ impl BucklingModel {
                 continue;
             }
             let length = ends[0].distance(ends[1]);
+            let mut rotations = [first, first + 1];
             for end in 0..2 {
-                let fixity = own.fixity[end].min(MAX_FIXITY);
-                if fixity > 0.0 {
+                let (fixity, own_rotation) = (own.fixity[end], rotations[end]);
+                let at_joint = joint(end) + 2;
+                if fixity == 0.0 {
+                    continue;
+                }
+                is_fixed[at_joint] = axes[bar[end] as usize].is_fixed[2];
+                if fixity >= RIGID_FROM {
+                    is_fixed[own_rotation] = true;
+                    rotations[end] = at_joint;
+                } else {
                     let stiffness = 3.0 * own.modulus * own.second_moment() / length;
-                    let pair = [first + end, joint(end) + 2];
-                    springs.push((pair, stiffness * fixity / (1.0 - fixity)));
-                    is_fixed[pair[1]] = axes[bar[end] as usize].is_fixed[2];
+                    let spring = stiffness * fixity / (1.0 - fixity);
+                    springs.push(([own_rotation, at_joint], spring));
                 }
             }
             let rigid = MemberProperties {
@@ -127,8 +138,8 @@ impl BucklingModel {
             };
             let point = |k: usize| ends[0].lerp(ends[1], k as f64 / PARTS as f64);
             let unknowns = |k: usize| match k {
-                0 => [joint(0), joint(0) + 1, first],
-                PARTS => [joint(1), joint(1) + 1, first + 1],
+                0 => [joint(0), joint(0) + 1, rotations[0]],
+                PARTS => [joint(1), joint(1) + 1, rotations[1]],
                 inner => [0, 1, 2].map(|i| first + 2 + 3 * (inner - 1) + i),
             };
             let axis = |k: usize| match k {
@@ -143,12 +154,18 @@ impl BucklingModel {
                 elements.push(element(ends, both.map(axis), &rigid, axial, unknowns));
             }
         }
-        Self::with_pattern(elements, springs, is_fixed)
+        let ground = solver.springs().to_vec();
+        for spring in ground.iter().filter(|spring| spring.mode[2] != 0.0) {
+            let node = spring.node as usize;
+            is_fixed[3 * node + 2] = axes[node].is_fixed[2];
+        }
+        Self::with_pattern(elements, springs, ground, is_fixed)
     }
 
     fn with_pattern(
         elements: Vec<BucklingElement>,
         springs: Vec<([usize; 2], f64)>,
+        ground: Vec<GroundSpring>,
         is_fixed: Vec<bool>,
     ) -> Option<Self> {
         let diagonal = (0..is_fixed.len() as u32).map(|i| [i, i]);
@@ -156,12 +173,17 @@ impl BucklingModel {
             lower_triangle().map(|[i, j]| [i, j].map(|k| element.unknowns[k] as u32))
         });
         let of_springs = springs.iter().map(|(pair, _)| pair.map(|k| k as u32));
-        let places: Vec<[u32; 2]> = diagonal.chain(of_elements).chain(of_springs).collect();
+        let of_ground = ground
+            .iter()
+            .flat_map(|spring| NODE_ENTRIES.map(|pair| pair.map(|k| 3 * spring.node + k as u32)));
+        let others = of_elements.chain(of_springs).chain(of_ground);
+        let places: Vec<[u32; 2]> = diagonal.chain(others).collect();
         let (pattern, slots) = PatternCholesky::new(is_fixed.len(), &places).ok()?;
         Some(Self {
             memory: pattern.memory(),
             elements,
             springs,
+            ground,
             is_fixed,
             pattern,
             slots,
@@ -174,7 +196,8 @@ impl BucklingModel {
         let entries = self.memory.entries();
         entries.fill(0.0);
         let (diagonal, others) = self.slots.split_at(unknowns);
-        let (of_elements, of_springs) = others.split_at(21 * self.elements.len());
+        let (of_elements, others) = others.split_at(21 * self.elements.len());
+        let (of_springs, of_ground) = others.split_at(self.springs.len());
         let is_free = |pair: [usize; 2]| pair.iter().all(|&k| !self.is_fixed[k]);
         for (element, slots) in self.elements.iter().zip(of_elements.chunks_exact(21)) {
             for ([i, j], &slot) in lower_triangle().zip(slots) {
@@ -190,6 +213,13 @@ impl BucklingModel {
             }
             if is_free(pair) {
                 entries[slot as usize] -= stiffness;
+            }
+        }
+        for (spring, slots) in self.ground.iter().zip(of_ground.chunks_exact(6)) {
+            for ([i, j], &slot) in NODE_ENTRIES.into_iter().zip(slots) {
+                if is_free([i, j].map(|k| 3 * spring.node as usize + k)) {
+                    entries[slot as usize] += spring.stiffness * spring.mode[i] * spring.mode[j];
+                }
             }
         }
         for (unknown, &slot) in diagonal.iter().enumerate() {

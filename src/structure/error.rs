@@ -46,14 +46,12 @@ pub enum StructureNote {
     DefaultArea,
     /// Bars without a section are round tubes.
     DefaultSection,
-    /// Numbers of a material were taken from a standard grade.
-    GradeValues {
+    /// Numbers of a material whose name contains no standard grade are those of a grade.
+    AssumedGrade {
         /// Name of the material; empty for bars without a material.
         material: String,
         /// Name of the grade.
         grade: &'static str,
-        /// Whether the material is named after the grade.
-        is_named: bool,
     },
 }
 
@@ -66,19 +64,12 @@ impl fmt::Display for StructureNote {
             Self::DefaultSection => f.write_str(
                 "bars have no section; round tubes with a wall of 1/20 of the diameter were assumed",
             ),
-            Self::GradeValues {
-                material, grade, ..
-            } if material.is_empty() => {
-                write!(f, "bars have no material; {grade} was assumed")
+            Self::AssumedGrade { material, grade } if material.is_empty() => {
+                write!(f, "bars have no material; steel {grade} was assumed")
             }
-            Self::GradeValues {
-                material,
-                grade,
-                is_named,
-            } => {
+            Self::AssumedGrade { material, grade } => {
                 let material = SanitizedLine(material);
-                let verb = if *is_named { "taken from" } else { "assumed to be those of" };
-                write!(f, "missing numbers of {material} were {verb} {grade}")
+                write!(f, "missing numbers of {material} were assumed to be those of steel {grade}")
             }
         }
     }

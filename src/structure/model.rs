@@ -224,11 +224,10 @@ fn material(
     let modulus = number(given.and_then(|m| m.youngs_modulus)).map(|e| e * pascals);
     let strength = number(given.and_then(|m| m.strength)).map(|f| f * pascals);
     let density = number(given.and_then(|m| m.density)).map(|d| d * units.density());
-    if [modulus, strength, density].contains(&None) {
-        notes.add(StructureNote::GradeValues {
+    if grade.is_none() && [modulus, strength, density].contains(&None) {
+        notes.add(StructureNote::AssumedGrade {
             material: given.map_or_else(String::new, |given| given.name.clone()),
             grade: standard.name,
-            is_named: grade.is_some(),
         });
     }
     MemberProperties {

@@ -174,6 +174,11 @@ impl StructureSolver {
         &self.places
     }
 
+    /// Returns the springs between nodes and the ground at the last [`Self::solve`].
+    pub(super) fn springs(&self) -> &[GroundSpring] {
+        &self.springs
+    }
+
     /// Returns the places in m of the nodes that any design supports.
     pub(super) fn supported_places(&self) -> Vec<DVec2> {
         let nodes = self

@@ -519,3 +519,32 @@ fn a_pinned_bar_of_a_truss_buckles_between_its_nodes() {
     solver.solve(hanging.nodes(), &[1.0], LoadSelection::All);
     assert_eq!(solver.critical_load_factor(), f64::INFINITY);
 }
+
+#[test]
+fn a_spring_at_the_foot_of_a_column_holds_it() {
+    // A column on a rotational spring k with a free head buckles where z tan z = kL/EI, with
+    // z² = N L²/EI; at z = 1 that is kL/EI = tan 1.
+    let mut file: Value = serde_json::from_str(
+        &beam(
+            4,
+            5.0,
+            json!([]),
+            json!({"name": "", "loads": [{"node": 4, "force": [-1000, 0]}]}),
+        )
+        .to_json(),
+    )
+    .expect("JSON");
+    let stiffness = 1.0_f64.tan() * BENDING_STIFFNESS / 5.0;
+    file["supports"] = pins(&[0]);
+    file["springs"] = json!([{"node": 0, "stiffness": stiffness}]);
+    let column = truss(&file);
+    let blend = StructuralBlend::of(&[&column]).expect("a structure");
+    let mut solver = StructureSolver::new(Arc::new(blend)).expect("a solver");
+    let state = solver.solve(column.nodes(), &[1.0], LoadSelection::All);
+    assert!(!state.is_mechanism);
+    assert_close(
+        solver.critical_load_factor() * 1000.0 * 25.0 / BENDING_STIFFNESS,
+        1.0,
+        1e-5,
+    );
+}
