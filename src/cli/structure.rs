@@ -2,6 +2,7 @@
 //! chosen t as files.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use clap::Args;
 use serde::Serialize;
@@ -63,6 +64,8 @@ struct StructureReport {
     film: FilmStructure,
     /// Mass in kg of the structure with sized members, at evenly spaced t.
     sized: Vec<SizedMass>,
+    /// Time in s of analysing all samples, proof included.
+    seconds: f64,
     /// All numbers at the t of `--at`.
     tables: Vec<StructureTables>,
 }
@@ -208,9 +211,11 @@ impl StructureReport {
         progress: &dyn crate::work::progress::Progress,
     ) -> Result<Self, CliError> {
         let limits = StructureLimits::default();
+        let start = Instant::now();
         let film = FilmStructure::of(transition, SAMPLES, &limits, progress)
             .map_err(CliError::failed)?
             .map_err(CliError::failed)?;
+        let seconds = start.elapsed().as_secs_f64();
         let mut structure = TransitionStructure::new(transition).map_err(CliError::failed)?;
         let options = SizingOptions::default();
         let sized = (0..ROWS).map(|row| {
@@ -226,6 +231,7 @@ impl StructureReport {
             nodes: blend.node_count(),
             film,
             sized,
+            seconds,
             tables: Vec::new(),
         })
     }

@@ -35,6 +35,8 @@ pub struct BarResults {
     pub area_m2: f64,
     /// Axial force of the largest magnitude in N; tension is positive.
     pub axial_n: f64,
+    /// Axial force in the middle of the bar in N; tension is positive.
+    pub mean_axial_n: f64,
     /// Largest absolute shear force in N.
     pub shear_n: f64,
     /// Largest absolute bending moment in N m.
@@ -95,6 +97,7 @@ impl StructureTables {
                 length_m: forces.length,
                 area_m2: own.area,
                 axial_n: forces.governing_axial(),
+                mean_axial_n: forces.axial,
                 shear_n: forces.largest_shear(),
                 moment_nm: forces.largest_moment(),
                 stress_pa: forces.largest_stress(own),
