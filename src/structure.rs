@@ -9,7 +9,8 @@
 //! check by a building code.
 //!
 //! - `model`: structure of one design in SI units; `blend`: structures of several designs
-//! - `element`: stiffness and internal forces of a member; `node_axes`: fixed displacements
+//! - `element`: stiffness and internal forces of a member
+//! - `restraints`: supports of several designs; `node_axes`: fixed displacements
 //! - `solver`: statics and the first mode, with the system of equations in `pattern`
 //! - `buckling`: the load factor at which a structure buckles
 //! - `stability_proof`: proof that a recorded structure stands at every t
@@ -28,6 +29,7 @@ mod limits;
 mod model;
 mod node_axes;
 mod pattern;
+mod restraints;
 mod sample;
 mod shape_faults;
 mod sizing;

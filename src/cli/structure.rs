@@ -236,7 +236,7 @@ impl StructureReport {
         })
     }
 
-    /// Returns the report as text: what is wrong, then a table of measures.
+    /// Returns the report as text: the faults, then a table of measures.
     fn text(&self) -> String {
         let mut lines = NumberLines::default();
         lines.line(&self.title);

@@ -1,12 +1,12 @@
-//! Findings of the concept check: what is wrong with a structure between two designs, in the order
-//! of gravity, each with its place and its t.
+//! Findings of the concept check: faults of a structure between two designs, in the order of gravity,
+//! each with its place and its t.
 
 use super::limits::StructureLimits;
 use super::sample::{BarValue, StructureSample};
 use serde::Serialize;
 use std::fmt;
 
-/// Something that is wrong with a structure.
+/// Fault of a structure.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]

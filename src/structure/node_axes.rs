@@ -1,6 +1,6 @@
 //! Displacements of the nodes: the axes in which they are measured, and which of them are fixed.
 
-use super::blend::RestraintAt;
+use super::restraints::RestraintAt;
 use crate::geometry::DVec2;
 
 /// Presence from which a support counts as rigid (numerical tolerance: a spring of larger stiffness

@@ -12,11 +12,12 @@
 //! Guaranteed: [`StructureSolver::solve`] allocates nothing and cannot fail; its results depend only
 //! on the weights, the places and the selected loads.
 
-use super::blend::{LoadSelection, LoadsAt, RestraintAt, StructuralBlend};
+use super::blend::{LoadSelection, LoadsAt, StructuralBlend};
 use super::element::{Element, MemberForces, MemberProperties, rotary_inertia};
 use super::error::StructureError;
 use super::node_axes::{GroundSpring, NodeAxes};
 use super::pattern::NodeMatrix;
+use super::restraints::RestraintAt;
 use crate::geometry::DVec2;
 use std::f64::consts::TAU;
 use std::sync::Arc;

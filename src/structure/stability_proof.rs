@@ -8,7 +8,7 @@
 //! interval and the structure stands; else both halves of the interval are examined.
 //!
 //! Supports, members and fixities that not all designs have are left out: without them the
-//! structure is the weaker one, so that the proof holds. Guaranteed: what is reported as proved is
+//! structure is the weaker one, so that the proof holds. Guaranteed: every reported proof is
 //! true. Not guaranteed: that every structure that stands is proved, for example one that needs two
 //! different supports in its two designs.
 
