@@ -30,7 +30,7 @@ use crate::geometry::{Bounds, DVec2, Similarity};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truss {
     /// Data in the coordinates of the file.
-    parts: TrussParts,
+    parts: Box<TrussParts>,
     /// Positions of the nodes after the placement.
     nodes: Vec<DVec2>,
     /// Similarity from the coordinates of the file to those of the nodes.
@@ -65,7 +65,7 @@ impl Truss {
         parts.check()?;
         Ok(Self {
             nodes: parts.nodes.clone(),
-            parts,
+            parts: Box::new(parts),
             placement: Similarity::IDENTITY,
         })
     }

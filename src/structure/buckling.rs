@@ -89,77 +89,116 @@ impl StructureSolver {
     }
 }
 
-impl BucklingModel {
-    /// Divides the members of an analysed structure; `None` if the system does not fit into memory.
-    fn of(solver: &StructureSolver) -> Option<Self> {
-        let (bars, places, axes) = (solver.blend().bars(), solver.places(), solver.axes());
-        let joints = 3 * places.len();
-        let mut is_fixed = vec![false; joints + INNER_UNKNOWNS * bars.len()];
-        for (node, axes) in axes.iter().enumerate() {
+/// Members that are divided into elements one after another.
+struct MemberDivision<'a> {
+    solver: &'a StructureSolver,
+    elements: Vec<BucklingElement>,
+    springs: Vec<([usize; 2], f64)>,
+    is_fixed: Vec<bool>,
+}
+
+impl<'a> MemberDivision<'a> {
+    /// Fixes the supported displacements; rotations are free only where a member resists them.
+    fn new(solver: &'a StructureSolver) -> Self {
+        let bars = solver.blend().bars().len();
+        let joints = 3 * solver.places().len();
+        let mut is_fixed = vec![false; joints + INNER_UNKNOWNS * bars];
+        for (node, axes) in solver.axes().iter().enumerate() {
             is_fixed[3 * node..][..2].copy_from_slice(&axes.is_fixed[..2]);
             is_fixed[3 * node + 2] = true;
         }
-        let mut elements = Vec::with_capacity(PARTS * bars.len());
-        let mut springs = Vec::new();
-        for (member, bar) in bars.iter().enumerate() {
-            let state = solver.state();
-            let (own, axial) = (state.properties[member], state.forces[member].axial);
-            let first = joints + INNER_UNKNOWNS * member;
-            let ends = bar.map(|node| places[node as usize]);
-            let directions = bar.map(|node| axes[node as usize].x);
-            let joint = |end: usize| 3 * bar[end] as usize;
-            if own.second_moment() == 0.0 {
-                is_fixed[first..][..INNER_UNKNOWNS].fill(true);
-                let unknowns = [0, 1].map(|end| [joint(end), joint(end) + 1, joint(end) + 2]);
-                elements.push(element(ends, directions, &own, axial, unknowns));
-                continue;
-            }
-            let length = ends[0].distance(ends[1]);
-            let mut rotations = [first, first + 1];
-            for end in 0..2 {
-                let (fixity, own_rotation) = (own.fixity[end], rotations[end]);
-                let at_joint = joint(end) + 2;
-                if fixity == 0.0 {
-                    continue;
-                }
-                is_fixed[at_joint] = axes[bar[end] as usize].is_fixed[2];
-                if fixity >= RIGID_FROM {
-                    is_fixed[own_rotation] = true;
-                    rotations[end] = at_joint;
-                } else {
-                    let stiffness = 3.0 * own.modulus * own.second_moment() / length;
-                    let spring = stiffness * fixity / (1.0 - fixity);
-                    springs.push(([own_rotation, at_joint], spring));
-                }
-            }
-            let rigid = MemberProperties {
-                fixity: [1.0; 2],
-                ..own
-            };
-            let point = |k: usize| ends[0].lerp(ends[1], k as f64 / PARTS as f64);
-            let unknowns = |k: usize| match k {
-                0 => [joint(0), joint(0) + 1, rotations[0]],
-                PARTS => [joint(1), joint(1) + 1, rotations[1]],
-                inner => [0, 1, 2].map(|i| first + 2 + 3 * (inner - 1) + i),
-            };
-            let axis = |k: usize| match k {
-                0 => directions[0],
-                PARTS => directions[1],
-                _ => DVec2::X,
-            };
-            for k in 0..PARTS {
-                let both = [k, k + 1];
-                let unknowns = both.map(unknowns);
-                let ends = both.map(point);
-                elements.push(element(ends, both.map(axis), &rigid, axial, unknowns));
-            }
+        Self {
+            solver,
+            elements: Vec::with_capacity(PARTS * bars),
+            springs: Vec::new(),
+            is_fixed,
         }
+    }
+
+    /// Divides a member.
+    fn divide(&mut self, member: usize) {
+        let bar = self.solver.blend().bars()[member];
+        let state = self.solver.state();
+        let (own, axial) = (state.properties[member], state.forces[member].axial);
+        let first = 3 * self.solver.places().len() + INNER_UNKNOWNS * member;
+        let ends = bar.map(|node| self.solver.places()[node as usize]);
+        let directions = bar.map(|node| self.solver.axes()[node as usize].x);
+        let joints = bar.map(|node| 3 * node as usize);
+        if own.second_moment() == 0.0 {
+            self.is_fixed[first..][..INNER_UNKNOWNS].fill(true);
+            let unknowns = joints.map(|joint| [joint, joint + 1, joint + 2]);
+            let straight = element(ends, directions, &own, axial, unknowns);
+            self.elements.push(straight);
+            return;
+        }
+        let length = ends[0].distance(ends[1]);
+        let rotations = [0, 1].map(|end| self.end_rotation(&own, length, first, joints, end));
+        let rigid = MemberProperties {
+            fixity: [1.0; 2],
+            ..own
+        };
+        let point = |k: usize| ends[0].lerp(ends[1], k as f64 / PARTS as f64);
+        let unknowns = |k: usize| match k {
+            0 => [joints[0], joints[0] + 1, rotations[0]],
+            PARTS => [joints[1], joints[1] + 1, rotations[1]],
+            inner => [0, 1, 2].map(|i| first + 2 + 3 * (inner - 1) + i),
+        };
+        let axis = |k: usize| match k {
+            0 => directions[0],
+            PARTS => directions[1],
+            _ => DVec2::X,
+        };
+        for k in 0..PARTS {
+            let both = [k, k + 1];
+            let unknowns = both.map(unknowns);
+            let part = element(both.map(point), both.map(axis), &rigid, axial, unknowns);
+            self.elements.push(part);
+        }
+    }
+
+    /// Returns the unknown of the rotation of an end of a member, which is joined to that of the
+    /// node: its own, or the node's if the joint is rigid.
+    fn end_rotation(
+        &mut self,
+        own: &MemberProperties,
+        length: f64,
+        first: usize,
+        joints: [usize; 2],
+        end: usize,
+    ) -> usize {
+        let (own_rotation, at_joint) = (first + end, joints[end] + 2);
+        let fixity = own.fixity[end];
+        if fixity == 0.0 {
+            return own_rotation;
+        }
+        self.is_fixed[at_joint] = self.solver.axes()[joints[end] / 3].is_fixed[2];
+        if fixity >= RIGID_FROM {
+            self.is_fixed[own_rotation] = true;
+            return at_joint;
+        }
+        let stiffness = 3.0 * own.modulus * own.second_moment() / length;
+        let spring = stiffness * fixity / (1.0 - fixity);
+        self.springs.push(([own_rotation, at_joint], spring));
+        own_rotation
+    }
+}
+
+impl BucklingModel {
+    /// Divides the members of an analysed structure; `None` if the system does not fit into memory.
+    fn of(solver: &StructureSolver) -> Option<Self> {
+        let mut division = MemberDivision::new(solver);
+        (0..solver.blend().bars().len()).for_each(|member| division.divide(member));
         let ground = solver.springs().to_vec();
         for spring in ground.iter().filter(|spring| spring.mode[2] != 0.0) {
             let node = spring.node as usize;
-            is_fixed[3 * node + 2] = axes[node].is_fixed[2];
+            division.is_fixed[3 * node + 2] = solver.axes()[node].is_fixed[2];
         }
-        Self::with_pattern(elements, springs, ground, is_fixed)
+        Self::with_pattern(
+            division.elements,
+            division.springs,
+            ground,
+            division.is_fixed,
+        )
     }
 
     fn with_pattern(

@@ -14,7 +14,9 @@ use super::tables::StructureTables;
 use crate::design::{Truss, TrussInputError};
 use crate::recording::RecordingOptions;
 use crate::transition::{Frame, Transition};
-use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan, checkpoint};
+use crate::work::progress::{
+    Cancelled, OverallProgress, Progress, ProgressSpan, check_cancelled, checkpoint,
+};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -185,9 +187,8 @@ impl FilmStructure {
                 Ok(proof) => Some(proof),
                 Err(error) => return Ok(Err(error)),
             },
-            Err(error) => {
-                crate::work::progress::check_cancelled(progress)?;
-                drop(error);
+            Err(_) => {
+                check_cancelled(progress)?;
                 None
             }
         };

@@ -178,48 +178,28 @@ pub(super) fn faults(
 ) -> Vec<StructureFault> {
     let mut faults = shape;
     let above = |value: Option<BarValue>, limit: f64| value.filter(|v| v.value > limit);
-    if let Some(BarValue { bar, value }) = above(sample.strength, 1.0) {
-        let utilisation = value;
-        faults.push(StructureFault::OverStrength { bar, utilisation });
-    }
-    if let Some(BarValue { bar, value }) = above(sample.euler, 1.0) {
-        let utilisation = value;
-        faults.push(StructureFault::BarBuckles { bar, utilisation });
-    }
-    if let Some(factor) = sample.critical_load_factor {
-        let least = limits.least_buckling_factor;
-        let limit = if factor < least {
-            least
-        } else {
-            limits.buckling_factor
-        };
-        if factor < limit {
-            faults.push(StructureFault::FrameBuckles { factor, limit });
-        }
-    }
-    if let Some(node) = sample.deflected_node {
-        let (deflection, limit) = (sample.deflection, limits.span_to_deflection);
-        let span_ratio = sample.span / deflection;
-        if span_ratio < limit {
-            faults.push(StructureFault::Sags {
-                node,
-                deflection,
-                span_ratio,
-                limit,
-            });
-        }
-    }
+    let bar_faults = [
+        above(sample.strength, 1.0).map(|found| StructureFault::OverStrength {
+            bar: found.bar,
+            utilisation: found.value,
+        }),
+        above(sample.euler, 1.0).map(|found| StructureFault::BarBuckles {
+            bar: found.bar,
+            utilisation: found.value,
+        }),
+        frame_buckles(sample, limits),
+        sags(sample, limits),
+    ];
+    faults.extend(bar_faults.into_iter().flatten());
     for (value, limit) in [
         (sample.compressed_slenderness, limits.compressed_slenderness),
         (sample.tension_slenderness, limits.tension_slenderness),
     ] {
-        if let Some(BarValue { bar, value }) = above(value, limit) {
-            faults.push(StructureFault::Slender {
-                bar,
-                slenderness: value,
-                limit,
-            });
-        }
+        faults.extend(above(value, limit).map(|found| StructureFault::Slender {
+            bar: found.bar,
+            slenderness: found.value,
+            limit,
+        }));
     }
     if let (Some(frequency), Some(of_designs)) = (sample.frequency, least_frequency)
         && frequency < limits.least_frequency_share * of_designs
@@ -230,6 +210,30 @@ pub(super) fn faults(
         });
     }
     faults
+}
+
+/// Returns the fault of a frame whose buckling factor is below a limit.
+fn frame_buckles(sample: &StructureSample, limits: &StructureLimits) -> Option<StructureFault> {
+    let factor = sample.critical_load_factor?;
+    let least = limits.least_buckling_factor;
+    let limit = if factor < least {
+        least
+    } else {
+        limits.buckling_factor
+    };
+    (factor < limit).then_some(StructureFault::FrameBuckles { factor, limit })
+}
+
+/// Returns the fault of a structure that bends farther than its limit.
+fn sags(sample: &StructureSample, limits: &StructureLimits) -> Option<StructureFault> {
+    let (node, limit) = (sample.deflected_node?, limits.span_to_deflection);
+    let span_ratio = sample.span / sample.deflection;
+    (span_ratio < limit).then_some(StructureFault::Sags {
+        node,
+        deflection: sample.deflection,
+        span_ratio,
+        limit,
+    })
 }
 
 /// Merges the faults of all samples: one finding for each kind, at the t where it is worst.
@@ -308,6 +312,15 @@ impl fmt::Display for StructureFault {
                 write!(f, "a moment acts on the pinned {}", NodeList(nodes))
             }
             Self::InPieces { pieces } => write!(f, "in {pieces} pieces"),
+            fault => fault.write_limit(f),
+        }
+    }
+}
+
+impl StructureFault {
+    /// Writes the faults of structures that exceed a limit or have an unsuitable shape.
+    fn write_limit(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::OverStrength { bar, utilisation } => {
                 write!(
                     f,
@@ -348,6 +361,13 @@ impl fmt::Display for StructureFault {
                 f,
                 "bar {bar} has a slenderness of {slenderness:.0} (limit {limit})"
             ),
+            fault => fault.write_shape(f),
+        }
+    }
+
+    /// Writes the faults of shape and vibration.
+    fn write_shape(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::SharpAngle {
                 bars: [a, b],
                 angle_deg,
@@ -365,6 +385,7 @@ impl fmt::Display for StructureFault {
             Self::CrossesWithoutJoint { bars: [a, b] } => {
                 write!(f, "bars {a} and {b} cross without a joint")
             }
+            _ => Ok(()),
         }
     }
 }

@@ -493,7 +493,7 @@ impl StructureSolver {
             eigenvalue = work / norm;
             let scale = norm.sqrt().recip();
             self.unknowns.iter_mut().for_each(|x| *x *= scale);
-            if !((last - eigenvalue).abs() > EIGENVALUE_TOLERANCE * eigenvalue) {
+            if (last - eigenvalue).abs() <= EIGENVALUE_TOLERANCE * eigenvalue {
                 break;
             }
         }

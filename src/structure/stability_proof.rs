@@ -22,7 +22,7 @@ use crate::recording::Recording;
 use crate::recording::proof::{
     BernsteinProducts, EPS, MotionInterval, VertexCurve, degree_elevated,
 };
-use crate::work::progress::{Cancelled, Progress, checkpoint};
+use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -161,7 +161,7 @@ impl<'a> Prover<'a> {
         depth: u32,
         progress: &dyn Progress,
     ) -> Result<Option<f64>, Cancelled> {
-        crate::work::progress::check_cancelled(progress)?;
+        check_cancelled(progress)?;
         self.examined += 1;
         let [from, to] = interval.times;
         match self.examine(&interval.curves) {
@@ -275,21 +275,12 @@ impl<'a> Prover<'a> {
         } else {
             span.clone()
         };
-        let along = |vector: DVec2, turns: f64, ends: [f64; 2]| {
-            let [x1, x2] = axes;
-            let turns = -turns;
-            [
-                turns * vector.dot(x1),
-                turns * vector.dot(x1.perp()),
-                ends[0],
-                -turns * vector.dot(x2),
-                -turns * vector.dot(x2.perp()),
-                ends[1],
-            ]
-        };
         let elevation = span.len() as f64 * EPS * longest;
         let mut rows = vec![DeformationRow {
-            coefficients: vectors.iter().map(|&d| along(d, 1.0, [0.0; 2])).collect(),
+            coefficients: vectors
+                .iter()
+                .map(|&d| coefficient(-d, axes, [0.0; 2]))
+                .collect(),
             error: error + elevation,
             weight,
         }];
@@ -298,7 +289,7 @@ impl<'a> Prover<'a> {
             let coefficients = vectors.iter().zip(&squares).map(|(d, square)| {
                 let mut ends = [0.0; 2];
                 ends[end] = square / typical;
-                along(d.perp(), -1.0, ends)
+                coefficient(d.perp(), axes, ends)
             });
             let of_square = 4.0 * longest * error
                 + 2.0 * error * error
@@ -311,6 +302,19 @@ impl<'a> Prover<'a> {
         }
         rows
     }
+}
+
+/// Returns the factors of the six displacements in a deformation: the dot product of `vector` with
+/// the displacement of the first node minus that of the second, plus `ends` times the rotations.
+fn coefficient(vector: DVec2, [x1, x2]: [DVec2; 2], ends: [f64; 2]) -> [f64; 6] {
+    [
+        vector.dot(x1),
+        vector.dot(x1.perp()),
+        ends[0],
+        -vector.dot(x2),
+        -vector.dot(x2.perp()),
+        ends[1],
+    ]
 }
 
 /// Result of examining one interval.

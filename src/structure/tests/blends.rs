@@ -42,16 +42,12 @@ fn both_ends_are_the_designs_themselves() {
     let order = [1, 2, 0];
     let ends = [analysed(&trusses[0]), analysed(&trusses[1])];
     let [first, last] = [0.0, 1.0].map(|t| between(&trusses, t));
-    for bar in 0..3 {
+    for (bar, &other) in order.iter().enumerate() {
         assert_eq!(first.forces[bar].axial, ends[0].forces[bar].axial);
-        assert_close(
-            last.forces[bar].axial,
-            ends[1].forces[order[bar]].axial,
-            1e-12,
-        );
+        assert_close(last.forces[bar].axial, ends[1].forces[other].axial, 1e-12);
         assert_close(
             last.properties[bar].area,
-            ends[1].properties[order[bar]].area,
+            ends[1].properties[other].area,
             1e-15,
         );
     }
