@@ -40,7 +40,7 @@ fn pieces_and_holes(figure: &VectorFigure) -> (usize, usize) {
 #[test]
 fn every_project_has_a_title_and_a_description_and_opens_from_its_folder() {
     let entries = gallery::list().expect("the list");
-    assert_eq!(entries.len(), 36);
+    assert_eq!(entries.len(), 38);
     for entry in entries {
         assert!(!entry.title.is_empty(), "{}", entry.name);
         assert!(entry.description.ends_with('.'), "{}", entry.name);

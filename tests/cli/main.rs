@@ -8,6 +8,7 @@ mod hostile_names;
 mod output_files;
 mod pair_tables;
 mod protection;
+mod structure;
 mod videos;
 
 use std::fs;
