@@ -66,7 +66,9 @@ fn girder(panels: u32, rise: f64) -> Result<Truss, Box<dyn Error>> {
         force: DVec2::new(0.0, -20.0),
         moment: 0.0,
     };
-    let nodes = (0..=panels).map(node(0.0)).chain((0..=panels).map(node(2.0)));
+    let nodes = (0..=panels)
+        .map(node(0.0))
+        .chain((0..=panels).map(node(2.0)));
     Ok(Truss::from_parts(TrussParts {
         nodes: nodes.collect(),
         areas: vec![4e-3; bars.len()],

@@ -17,7 +17,7 @@
 //! - `sizing`: least areas of members; `truss_between`: a truss between designs, for a file
 //! - `tables`: all numbers at one t
 //! - `sample`: results at one t; `shape_faults`, `findings`, `limits`: the concept check
-//! - `film`: analysis of a whole transition; `error`: errors and notes
+//! - `film`: analysis of a whole transition; `quantity`: its measures for graphs; `error`: errors and notes
 
 mod blend;
 mod buckling;
@@ -29,6 +29,7 @@ mod limits;
 mod model;
 mod node_axes;
 mod pattern;
+mod quantity;
 mod restraints;
 mod sample;
 mod shape_faults;
@@ -44,9 +45,10 @@ mod tests;
 pub use blend::{LoadSelection, StructuralBlend};
 pub use element::{MemberForces, MemberProperties};
 pub use error::{StructureError, StructureNote};
-pub use film::{FilmStructure, Soundness, TransitionStructure};
+pub use film::{FilmStructure, Soundness, TransitionStructure, has_structure};
 pub use findings::{StructureFault, StructureFinding};
 pub use limits::StructureLimits;
+pub use quantity::StructureQuantity;
 pub use sample::{BarValue, StructureSample};
 pub use sizing::{SizedMembers, SizingOptions};
 pub use solver::{NodeDisplacement, StructuralState, StructureSolver};

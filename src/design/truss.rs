@@ -111,6 +111,13 @@ impl Truss {
         self.parts.units.unwrap_or(TrussUnits::DEFAULT)
     }
 
+    /// Returns whether the truss has supports or loads, so that it can be analysed as a structure.
+    #[must_use]
+    pub fn is_structure(&self) -> bool {
+        let parts = &self.parts;
+        !(parts.supports.is_empty() && parts.loads.is_empty() && parts.load_cases.is_empty())
+    }
+
     /// Returns whether the file names no units although it has numbers that need them: supports do
     /// not, but loads, areas, sections and materials do.
     pub(super) fn lacks_units(&self) -> bool {

@@ -11,7 +11,8 @@ use super::sizing::{SizedMembers, SizingOptions};
 use super::solver::{StructuralState, StructureSolver};
 use super::stability_proof::StabilityProof;
 use super::tables::StructureTables;
-use crate::design::{Truss, TrussInputError};
+use crate::content::Content;
+use crate::design::{DesignForm, Truss, TrussInputError};
 use crate::recording::RecordingOptions;
 use crate::transition::{Frame, Transition};
 use crate::work::progress::{
@@ -140,6 +141,20 @@ pub struct FilmStructure {
     pub limits: StructureLimits,
     /// Values that were used for numbers that the designs do not give.
     pub notes: Vec<String>,
+}
+
+/// Returns whether both designs of a transition are trusses, and any of them has supports or loads.
+#[must_use]
+pub fn has_structure(transition: &Transition) -> bool {
+    let trusses = transition
+        .designs()
+        .each_ref()
+        .map(|design| match &design.form {
+            DesignForm::Truss(truss) => Some(truss.is_structure()),
+            _ => None,
+        });
+    matches!(transition.content(), Content::Solid(_))
+        && matches!(trusses, [Some(first), Some(second)] if first || second)
 }
 
 /// Progress reported once all samples are analysed, in [0, 1] (heuristic).

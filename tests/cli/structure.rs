@@ -44,7 +44,9 @@ fn the_structure_is_printed_as_text_and_as_json() {
     assert!(report["proof"]["fails_at"].is_null());
     // The strut of the low bracket carries 4/3 of the load, the tie 5/3.
     let forces = |table: usize, bar: usize| {
-        report["tables"][table]["bars"][bar]["axial_n"].as_f64().expect("a force")
+        report["tables"][table]["bars"][bar]["axial_n"]
+            .as_f64()
+            .expect("a force")
     };
     assert!((forces(0, 0) + 40e3 * 4.0 / 3.0).abs() < 1e-6);
     assert!((forces(0, 1) - 40e3 * 5.0 / 3.0).abs() < 1e-6);
@@ -60,8 +62,16 @@ fn members_at_chosen_t_are_written_as_csv() {
     assert_eq!(rows.len(), 5);
     assert!(rows[0].starts_with("t,bar,first_node,second_node,length_m,area_m2,axial_n"));
     assert!(rows[4].starts_with("0.5,1,1,2,"), "{}", rows[4]);
-    cli.fails(2, "check low.json high.json --structure --at 0 --members low.json", "would replace the input");
-    cli.fails(2, "check low.json high.json --structure --members x.csv", "--at");
+    cli.fails(
+        2,
+        "check low.json high.json --structure --at 0 --members low.json",
+        "would replace the input",
+    );
+    cli.fails(
+        2,
+        "check low.json high.json --structure --members x.csv",
+        "--at",
+    );
 }
 
 #[test]
@@ -71,8 +81,13 @@ fn the_truss_at_t_opens_again_with_the_same_results() {
     let numbers = |designs: &str, t: f64| {
         let json = cli.succeeds(&format!("check {designs} --structure --at {t} --json"));
         let report: Value = serde_json::from_str(&json).expect("JSON");
-        let bars = report["tables"][0]["bars"].as_array().expect("bars").clone();
-        let axial = bars.iter().map(|bar| bar["axial_n"].as_f64().expect("a force"));
+        let bars = report["tables"][0]["bars"]
+            .as_array()
+            .expect("bars")
+            .clone();
+        let axial = bars
+            .iter()
+            .map(|bar| bar["axial_n"].as_f64().expect("a force"));
         axial.collect::<Vec<_>>()
     };
     let between = numbers("low.json high.json", 0.4);
@@ -80,9 +95,21 @@ fn the_truss_at_t_opens_again_with_the_same_results() {
     for (a, b) in between.iter().zip(&again) {
         assert!((a - b).abs() < 1e-9 * a.abs(), "{a} {b}");
     }
-    cli.fails(2, "render low.json high.json --at 0.4 --out low.json", "would replace the input");
-    cli.fails(1, "render a.svg b.svg --at 0.4 --out x.json", "has no bars; open a truss");
-    cli.fails(1, "check a.svg b.svg --structure", "has no bars; open a truss to analyse it");
+    cli.fails(
+        2,
+        "render low.json high.json --at 0.4 --out low.json",
+        "would replace the input",
+    );
+    cli.fails(
+        1,
+        "render a.svg b.svg --at 0.4 --out x.json",
+        "has no bars; open a truss",
+    );
+    cli.fails(
+        1,
+        "check a.svg b.svg --structure",
+        "has no bars; open a truss to analyse it",
+    );
 }
 
 #[test]
@@ -106,21 +133,67 @@ fn each_broken_truss_gets_a_sentence() {
         file.to_string()
     };
     for (text, code, message) in [
-        (broken("areas", json!([1e-3, -1])), 1, "area 1 has an invalid number; use finite numbers, zero or above"),
-        (broken("areas", json!([1e-3])), 1, "\"areas\" has 1 entries for 2 bars"),
-        (broken("areas", json!([1e-15, 1.0])), 1, "bar 1 is 1e15 times as stiff as bar 0"),
-        (broken("areas", json!([1e300, 1e300])), 1, "the stiffness of bar 0 is outside the range of numbers"),
-        (broken("loads", json!([{"node": 7, "force": [0, 1]}])), 1, "load 0 refers to node 7, but there are 3"),
-        (broken("units", json!({"length": "furlong", "force": "kN"})), 1, "unknown variant `furlong`"),
-        (broken("fixity", json!(1.5)), 1, "use numbers from 0 (pinned) to 1 (rigid)"),
-        (broken("supports", json!([{"node": 0, "fixed": [true]}])), 1, "give 2 (x, y) or 3 (x, y, rotation)"),
         (
-            broken("supports", json!([{"node": 0, "fixed": [true, true], "rolls_along": [1, 0]}])),
+            broken("areas", json!([1e-3, -1])),
+            1,
+            "area 1 has an invalid number; use finite numbers, zero or above",
+        ),
+        (
+            broken("areas", json!([1e-3])),
+            1,
+            "\"areas\" has 1 entries for 2 bars",
+        ),
+        (
+            broken("areas", json!([1e-15, 1.0])),
+            1,
+            "bar 1 is 1e15 times as stiff as bar 0",
+        ),
+        (
+            broken("areas", json!([1e300, 1e300])),
+            1,
+            "the stiffness of bar 0 is outside the range of numbers",
+        ),
+        (
+            broken("loads", json!([{"node": 7, "force": [0, 1]}])),
+            1,
+            "load 0 refers to node 7, but there are 3",
+        ),
+        (
+            broken("units", json!({"length": "furlong", "force": "kN"})),
+            1,
+            "unknown variant `furlong`",
+        ),
+        (
+            broken("fixity", json!(1.5)),
+            1,
+            "use numbers from 0 (pinned) to 1 (rigid)",
+        ),
+        (
+            broken("supports", json!([{"node": 0, "fixed": [true]}])),
+            1,
+            "give 2 (x, y) or 3 (x, y, rotation)",
+        ),
+        (
+            broken(
+                "supports",
+                json!([{"node": 0, "fixed": [true, true], "rolls_along": [1, 0]}]),
+            ),
             1,
             "support 0 needs either \"fixed\" displacements or \"rolls_along\"",
         ),
-        (broken("sections", json!([{"shape": "i"}])), 1, "section 0 needs exactly one of"),
-        (broken("load_cases", json!([{"name": "x", "line_loads": [{"bars": [9], "force": [0, 1]}]}])), 1, "line load 0 refers to bar 9"),
+        (
+            broken("sections", json!([{"shape": "i"}])),
+            1,
+            "section 0 needs exactly one of",
+        ),
+        (
+            broken(
+                "load_cases",
+                json!([{"name": "x", "line_loads": [{"bars": [9], "force": [0, 1]}]}]),
+            ),
+            1,
+            "line load 0 refers to bar 9",
+        ),
         (broken("areas", json!("NaN")), 1, "invalid type"),
     ] {
         cli.write("broken.json", &text);

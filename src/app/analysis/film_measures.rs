@@ -13,6 +13,7 @@ use crate::app::input::intent::Intent;
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::session::state::Session;
 use crate::measure::{FilmReport, Verdict, film_report};
+use crate::structure::{FilmStructure, StructureError, StructureLimits, has_structure};
 use crate::transition::Transition;
 use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan};
 
@@ -20,6 +21,10 @@ use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan};
 /// evenly spaced values between them, among them 1/4, 1/2 and 3/4. More samples would find shorter
 /// defects and take longer (heuristic).
 pub const FILM_SAMPLES: usize = 65;
+
+/// Number of values of t at which a structure is analysed for its graphs (heuristic: ten seconds at
+/// 24 frames per second, and one).
+const STRUCTURE_SAMPLES: usize = 241;
 
 /// Time after which a running measurement is shown as work in progress and can be cancelled with
 /// Esc. A measurement that takes less time ends before the user could react to it (heuristic).
@@ -32,6 +37,9 @@ pub struct FilmMeasures {
     pub film: FilmReport,
     /// The defects found, with their place, cause and remedy.
     pub verdict: Verdict,
+    /// Analysis of two trusses with supports or loads, or the reason why they cannot be analysed;
+    /// `None` for all other designs.
+    pub structure: Option<Result<FilmStructure, StructureError>>,
 }
 
 /// Measures of the transition on the stage, and the background job that computes them.
@@ -120,10 +128,13 @@ impl StageMeasures {
     }
 }
 
-/// Share of the measurement's progress that sampling takes; checking takes the rest (heuristic).
-const SAMPLING_SHARE: f64 = 0.8;
+/// Share of the measurement's progress that sampling takes (heuristic).
+const SAMPLING_SHARE: f64 = 0.7;
 
-/// Samples the film, then checks it for defects.
+/// Progress of the measurement once the film is checked; the structure takes the rest (heuristic).
+const CHECKED_SHARE: f64 = 0.85;
+
+/// Samples the film, checks it for defects, and analyses the structure of trusses.
 ///
 /// # Errors
 /// [`Cancelled`] if the work was cancelled.
@@ -132,11 +143,31 @@ pub fn measure_film(
     progress: &dyn Progress,
 ) -> Result<FilmMeasures, Cancelled> {
     let progress = &OverallProgress::new(progress);
-    let [sampling, checking] = [(0.0, SAMPLING_SHARE), (SAMPLING_SHARE, 1.0)]
-        .map(|(from, to)| ProgressSpan::new(progress, from, to));
+    let [sampling, checking, analysing] = [
+        (0.0, SAMPLING_SHARE),
+        (SAMPLING_SHARE, CHECKED_SHARE),
+        (CHECKED_SHARE, 1.0),
+    ]
+    .map(|(from, to)| ProgressSpan::new(progress, from, to));
     let film = film_report(transition, FILM_SAMPLES, &sampling)?;
     let verdict = Verdict::of_film(transition, &film, &checking)?;
-    Ok(FilmMeasures { film, verdict })
+    let structure = match has_structure(transition) {
+        true => {
+            let limits = StructureLimits::default();
+            Some(FilmStructure::of(
+                transition,
+                STRUCTURE_SAMPLES,
+                &limits,
+                &analysing,
+            )?)
+        }
+        false => None,
+    };
+    Ok(FilmMeasures {
+        film,
+        verdict,
+        structure,
+    })
 }
 
 /// Starts measuring a new transition and collects results.

@@ -10,3 +10,4 @@ pub mod map;
 pub mod map_toolbar;
 pub mod onion;
 pub mod presentation;
+pub mod structure_rows;

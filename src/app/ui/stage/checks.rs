@@ -14,6 +14,7 @@ use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::app::ui::stage::area::is_light;
+use crate::app::ui::stage::structure_rows;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::measure::{Finding, Verdict};
 
@@ -35,7 +36,8 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         let verdict = &measures.verdict;
         // The findings and notes take one line each. One more line offers fixes or, without
         // findings, reports that the check found no defects.
-        verdict.findings.len() + 1 + verdict.notes.len()
+        let structure = structure_rows::count(measures);
+        verdict.findings.len() + 1 + verdict.notes.len() + structure
     });
     let frame = panel_frame(root, [8, 8, 4, 4]);
     Panel::bottom("verdict")
@@ -87,6 +89,7 @@ fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Int
     if !verdict.is_clear() {
         fixes(ui, state, intents);
     }
+    structure_rows::show(ui, state, measures, intents);
     for note in &verdict.notes {
         row(ui, false, |ui| {
             let note = capitalised(&note.to_string());
@@ -130,7 +133,7 @@ fn clear(ui: &mut Ui, state: &UiState, verdict: &Verdict, intents: &mut Intents)
     }
 }
 
-fn row(ui: &mut Ui, is_clear: bool, content: impl FnOnce(&mut Ui)) {
+pub(super) fn row(ui: &mut Ui, is_clear: bool, content: impl FnOnce(&mut Ui)) {
     let palette = ThemePalette::of(ui);
     let (icon, colour) = if is_clear {
         (icons::TICK, palette.good)

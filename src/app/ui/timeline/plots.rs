@@ -4,13 +4,15 @@
 use bevy_egui::egui::{Color32, Label, Panel, PointerButton, ScrollArea, Ui, vec2};
 use egui_plot::{AxisHints, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, VLine};
 
+use crate::app::analysis::film_measures::FilmMeasures;
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::app::ui::stage::checks::unmeasured_reason;
 use crate::app::ui::ui_state::{Intents, UiState};
-use crate::measure::{FilmReport, Quantity};
-use crate::settings::Choice;
+use crate::measure::Quantity;
+use crate::settings::{Choice, ChoiceName};
+use crate::structure::StructureQuantity;
 
 /// Height of the panel with the graphs, in points.
 const HEIGHT: f32 = 168.0;
@@ -26,7 +28,7 @@ pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         .resizable(false)
         .frame(frame)
         .show(root, |ui| match state.measures.measures() {
-            Some(measures) => graphs_row(ui, state, &measures.film, intents),
+            Some(measures) => graphs_row(ui, state, measures, intents),
             None => pending(ui, state),
         });
 }
@@ -36,12 +38,61 @@ fn pending(ui: &mut Ui, state: &UiState) {
     ui.centered_and_justified(|ui| ui.label(secondary_text(ui, text)));
 }
 
-fn graphs_row(ui: &mut Ui, state: &UiState, film: &FilmReport, intents: &mut Intents) {
-    let graphs: Vec<(Quantity, Vec<[f64; 2]>)> = Quantity::ALL
+/// Quantity of a graph.
+#[derive(Clone, Copy, PartialEq)]
+enum GraphQuantity {
+    Shape(Quantity),
+    Structure(StructureQuantity),
+}
+
+impl GraphQuantity {
+    fn name(self) -> &'static ChoiceName {
+        match self {
+            Self::Shape(quantity) => quantity.name(),
+            Self::Structure(quantity) => quantity.name(),
+        }
+    }
+}
+
+/// Returns the quantities that can be drawn, with their values. Structures are described by their
+/// own quantities; the area and the outline of drawn bars mean nothing.
+fn graphs(measures: &FilmMeasures) -> Vec<(GraphQuantity, Vec<[f64; 2]>)> {
+    let structure = measures
+        .structure
+        .as_ref()
+        .and_then(|all| all.as_ref().ok());
+    let of_structure = structure.into_iter().flat_map(|structure| {
+        let all = StructureQuantity::ALL.into_iter();
+        all.map(|quantity| {
+            (
+                GraphQuantity::Structure(quantity),
+                structure.series(quantity),
+            )
+        })
+    });
+    let is_outline = |quantity: &Quantity| {
+        matches!(
+            quantity,
+            Quantity::Area | Quantity::Perimeter | Quantity::Turning
+        )
+    };
+    let of_shape = Quantity::ALL
         .into_iter()
-        .map(|quantity| (quantity, film.series(quantity)))
+        .filter(|quantity| structure.is_none() || !is_outline(quantity))
+        .map(|quantity| {
+            (
+                GraphQuantity::Shape(quantity),
+                measures.film.series(quantity),
+            )
+        });
+    of_structure
+        .chain(of_shape)
         .filter(|(_, series)| !series.is_empty())
-        .collect();
+        .collect()
+}
+
+fn graphs_row(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Intents) {
+    let graphs = graphs(measures);
     let gap = 2.0 * GRID;
     // The visible graphs fill the width of the panel, so that none is cut off. The user scrolls to
     // the other graphs.
@@ -68,7 +119,7 @@ const UNBOUNDED_TEXT: &str = "Unbounded at every t: some triangle has no area or
 fn graph(
     ui: &mut Ui,
     state: &UiState,
-    quantity: Quantity,
+    quantity: GraphQuantity,
     series: &[[f64; 2]],
     intents: &mut Intents,
 ) {
@@ -84,7 +135,7 @@ fn graph(
     let plot = axes(quantity, palette.weak).height(ui.available_height().min(HEIGHT - 52.0));
     let on_axis = |value: f64| axis_value(quantity, value);
     let response = plot.show(ui, |plot| {
-        if quantity == Quantity::MinDet {
+        if quantity == GraphQuantity::Shape(Quantity::MinDet) {
             plot.hline(zero_line(0.0, palette.problem));
         }
         let axis_series: Vec<[f64; 2]> = series.iter().map(|[t, v]| [*t, on_axis(*v)]).collect();
@@ -118,7 +169,7 @@ fn graph(
 }
 
 /// Returns an empty plot with the axes of a quantity, which cannot be panned or zoomed.
-fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
+fn axes(quantity: GraphQuantity, colour: Color32) -> Plot<'static> {
     let plot = Plot::new(("plot", quantity.name().title))
         // Panning and zooming are off, so that all graphs show the same range of t.
         .allow_drag(false)
@@ -146,16 +197,16 @@ fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
 
 /// Returns whether a quantity is a ratio: the conformal or isometric distortion of the worst face.
 /// Such values span many powers of ten while a part grows from its seed shape.
-fn is_ratio(quantity: Quantity) -> bool {
+fn is_ratio(quantity: GraphQuantity) -> bool {
     matches!(
         quantity,
-        Quantity::WorstConformal | Quantity::WorstIsometric
+        GraphQuantity::Shape(Quantity::WorstConformal | Quantity::WorstIsometric)
     )
 }
 
 /// Converts a value of a quantity to a coordinate on the quantity's axis, which is logarithmic for
 /// ratios.
-fn axis_value(quantity: Quantity, value: f64) -> f64 {
+fn axis_value(quantity: GraphQuantity, value: f64) -> f64 {
     if is_ratio(quantity) {
         value.log10()
     } else {
@@ -188,7 +239,7 @@ fn marks(min: f64, max: f64) -> Vec<GridMark> {
     (first..=last).map(mark).collect()
 }
 
-fn value_axis(quantity: Quantity, colour: Color32) -> AxisHints<'static> {
+fn value_axis(quantity: GraphQuantity, colour: Color32) -> AxisHints<'static> {
     AxisHints::new_y()
         .tick_label_color(colour)
         // The axis is as wide as the longest number, so that a graph does not move when its numbers
@@ -213,7 +264,7 @@ fn zero_line(y: f64, colour: Color32) -> HLine {
 }
 
 /// Draws the name of a quantity and its value at the current t.
-fn heading(ui: &mut Ui, quantity: Quantity, series: &[[f64; 2]], t: f64) {
+fn heading(ui: &mut Ui, quantity: GraphQuantity, series: &[[f64; 2]], t: f64) {
     let nearest = series
         .iter()
         .min_by(|a, b| (a[0] - t).abs().total_cmp(&(b[0] - t).abs()));
@@ -235,7 +286,10 @@ fn runs(series: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// Returns the values that the axis of a quantity always includes, such as 0 for an area.
-fn included_values(quantity: Quantity) -> Vec<f64> {
+fn included_values(quantity: GraphQuantity) -> Vec<f64> {
+    let GraphQuantity::Shape(quantity) = quantity else {
+        return vec![0.0];
+    };
     match quantity {
         Quantity::Area | Quantity::Perimeter | Quantity::Turning => vec![0.0],
         Quantity::WorstConformal | Quantity::WorstIsometric => vec![1.0, 2.0],
