@@ -3,7 +3,7 @@
 //!
 //! `cargo bench --no-default-features --bench structure`
 
-use criterion::{BenchmarkId, Criterion};
+use criterion::Criterion;
 use morphospace::Design;
 use morphospace::design::{Truss, TrussLoad, TrussParts, TrussSupport};
 use morphospace::geometry::DVec2;
@@ -22,13 +22,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         let transition = Transition::build(&TransitionSpec::new(source, target), &Silent)?;
         let mut structure = TransitionStructure::new(&transition)?;
         let mut t = 0.0;
-        criterion.bench_function(BenchmarkId::new("one t", bars), |bencher| {
+        criterion.bench_function(&format!("{bars} bars, one t"), |bencher| {
             bencher.iter(|| {
                 t = (t + 0.37) % 1.0;
                 structure.solve(t).compliance
             });
         });
-        criterion.bench_function(BenchmarkId::new("241 values of t", bars), |bencher| {
+        criterion.bench_function(&format!("{bars} bars, 241 values of t"), |bencher| {
             let limits = StructureLimits::default();
             bencher.iter(|| FilmStructure::of(&transition, 241, &limits, &Silent));
         });

@@ -46,7 +46,7 @@ pub use blend::{LoadSelection, StructuralBlend};
 pub use element::{MemberForces, MemberProperties};
 pub use error::{StructureError, StructureNote};
 pub use film::{FilmStructure, Soundness, TransitionStructure, has_structure};
-pub use findings::{StructureFault, StructureFinding};
+pub use findings::{NodeList, StructureFault, StructureFinding};
 pub use limits::StructureLimits;
 pub use quantity::StructureQuantity;
 pub use sample::{BarValue, StructureSample};

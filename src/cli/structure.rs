@@ -10,8 +10,8 @@ use serde::Serialize;
 use crate::io::atomic_file;
 use crate::io::escape::csv_line;
 use crate::structure::{
-    BarResults, FilmStructure, SizingOptions, StructureLimits, StructureSample, StructureTables,
-    TransitionStructure,
+    BarResults, FilmStructure, NodeList, SizingOptions, StructureLimits, StructureSample,
+    StructureTables, TransitionStructure,
 };
 use crate::transition::{Sequence, Transition};
 use crate::work::progress::{OverallProgress, ProgressSpan};
@@ -292,17 +292,13 @@ impl StructureReport {
                     proof.intervals, proof.factorisations
                 ),
                 Some(t) => {
-                    let nodes: Vec<String> =
-                        proof.moving_nodes.iter().map(u32::to_string).collect();
                     let verb = if proof.is_mechanism {
                         "falls over"
                     } else {
                         "not proved to stand"
                     };
-                    format!(
-                        "{verb} at t = {t:.6}; nodes that move: {}",
-                        nodes.join(", ")
-                    )
+                    let nodes = NodeList(&proof.moving_nodes);
+                    format!("{verb} at t = {t:.6}; moves most easily at {nodes}")
                 }
             },
         }

@@ -268,8 +268,10 @@ pub(super) fn merged(samples: &[(f64, Vec<StructureFault>)]) -> Vec<StructureFin
 /// Number of nodes that a sentence lists (heuristic: more do not fit on a line).
 const LISTED_NODES: usize = 6;
 
-/// Writes "node 3" or "nodes 3, 4 and 5".
-struct NodeList<'a>(&'a [u32]);
+/// Displays node numbers in words: "node 3", or "nodes 3, 4 and 5". Long lists end with the number
+/// of further nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct NodeList<'a>(pub &'a [u32]);
 
 impl fmt::Display for NodeList<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -289,6 +291,18 @@ impl fmt::Display for NodeList<'_> {
         match more {
             0 => Ok(()),
             more => write!(f, " and {more} more"),
+        }
+    }
+}
+
+/// Displays a length in m: in millimetres below one metre.
+struct LengthInWords(f64);
+
+impl fmt::Display for LengthInWords {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            metres if metres < 1.0 => write!(f, "{:.1} mm", 1e3 * metres),
+            metres => write!(f, "{metres:.2} m"),
         }
     }
 }
@@ -347,10 +361,11 @@ impl StructureFault {
                 span_ratio,
                 limit,
             } => {
-                let mm = 1e3 * deflection;
+                let decimals = usize::from(*span_ratio < 10.0);
                 write!(
                     f,
-                    "node {node} moves by {mm:.1} mm, span/{span_ratio:.0} (limit span/{limit})"
+                    "node {node} moves by {}, span/{span_ratio:.decimals$} (limit span/{limit})",
+                    LengthInWords(*deflection)
                 )
             }
             Self::Slender {

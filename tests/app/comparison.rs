@@ -105,7 +105,12 @@ fn the_structure_of_trusses_is_analysed_and_that_of_other_designs_is_not() {
     let structure = measures.expect("measures").structure.as_ref();
     let structure = structure.expect("a truss").as_ref().expect("a structure");
     assert!(structure.proof.as_ref().is_some_and(|proof| proof.holds()));
-    assert!(structure.samples.iter().all(|sample| sample.critical_load_factor.is_some()));
+    assert!(
+        structure
+            .samples
+            .iter()
+            .all(|sample| sample.critical_load_factor.is_some())
+    );
     window.send(Intent::OpenGallery("fern".to_owned()));
     window.wait();
     wait_for_measures(&mut window);

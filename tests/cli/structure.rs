@@ -121,7 +121,7 @@ fn a_mechanism_between_two_trusses_is_named() {
         cli.write(name, &file.to_string());
     }
     let text = cli.succeeds("check up.json down.json --structure");
-    assert!(text.contains("nodes that move: 2"), "{text}");
+    assert!(text.contains("moves most easily at node 2"), "{text}");
 }
 
 #[test]

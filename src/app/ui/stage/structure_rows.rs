@@ -9,7 +9,7 @@ use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::ThemePalette;
 use crate::app::ui::stage::checks::row;
 use crate::app::ui::ui_state::{Intents, UiState};
-use crate::structure::{FilmStructure, StabilityProof};
+use crate::structure::{FilmStructure, NodeList, StabilityProof};
 
 /// Hint that every row of the structure shows.
 const CONCEPT_CHECK: &str = "A concept check: linear, without partial factors, and not a check by a \
@@ -76,11 +76,10 @@ fn summary(ui: &mut Ui, state: &UiState, structure: &FilmStructure, intents: &mu
 
 /// Returns the text for a structure that is not proved to stand.
 fn failure_text(proof: &StabilityProof) -> String {
-    let nodes: Vec<String> = proof.moving_nodes.iter().map(u32::to_string).collect();
-    let noun = if nodes.len() == 1 { "node" } else { "nodes" };
+    let nodes = NodeList(&proof.moving_nodes);
     match proof.is_mechanism {
-        true => format!("Falls over: {noun} {} not held", nodes.join(", ")),
-        false => format!("May fall over; most easily at {noun} {}", nodes.join(", ")),
+        true => format!("Falls over: nothing holds {nodes}"),
+        false => format!("May fall over; moves most easily at {nodes}"),
     }
 }
 
