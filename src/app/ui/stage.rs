@@ -2,6 +2,7 @@
 //! checks, onion skins, film frame, comparison, map and presentation.
 
 pub mod area;
+pub mod check_row;
 pub mod checks;
 pub mod comparison;
 pub mod film_frame;

@@ -9,17 +9,14 @@ use bevy_egui::egui::{
 use crate::app::analysis::film_measures::FilmMeasures;
 use crate::app::analysis::suggestions::is_one_click;
 use crate::app::input::intent::Intent;
-use crate::app::ui::kit::icons;
 use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::app::ui::stage::area::is_light;
+use crate::app::ui::stage::check_row::{ROW_HEIGHT, row};
 use crate::app::ui::stage::structure_rows;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::measure::{Finding, Verdict};
-
-/// Height of one line of the strip, in points.
-const ROW_HEIGHT: f32 = 24.0;
 
 /// Maximum difference between the current t and the t of a finding whose place is marked on the
 /// stage (tolerance: slightly more than 1/64, the step between two samples of the film).
@@ -131,22 +128,6 @@ fn clear(ui: &mut Ui, state: &UiState, verdict: &Verdict, intents: &mut Intents)
     if ui.add(label).on_hover_text(tip).clicked() {
         intents.push(Intent::Seek(state.session.whole_t(first)));
     }
-}
-
-pub(super) fn row(ui: &mut Ui, is_clear: bool, content: impl FnOnce(&mut Ui)) {
-    let palette = ThemePalette::of(ui);
-    let (icon, colour) = if is_clear {
-        (icons::TICK, palette.good)
-    } else {
-        (icons::WARNING, palette.amber)
-    };
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 6.0;
-        ui.set_min_height(ROW_HEIGHT);
-        let (rect, _) = ui.allocate_exact_size(vec2(16.0, 20.0), Sense::hover());
-        icons::paint_icon(ui.painter(), icon, rect, colour);
-        content(ui);
-    });
 }
 
 /// Draws the headline of a finding. A click on it moves t to the moment of the finding.

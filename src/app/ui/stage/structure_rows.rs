@@ -7,7 +7,7 @@ use crate::app::analysis::film_measures::FilmMeasures;
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::ThemePalette;
-use crate::app::ui::stage::checks::row;
+use crate::app::ui::stage::check_row::row;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::structure::{FilmStructure, NodeList, StabilityProof};
 
