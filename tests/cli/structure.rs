@@ -125,6 +125,7 @@ fn a_mechanism_between_two_trusses_is_named() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table of broken files")]
 fn each_broken_truss_gets_a_sentence() {
     let cli = fixture();
     let broken = |key: &str, value: Value| {
