@@ -28,4 +28,4 @@ pub use validation::{BarElement, CompatibleError};
 
 pub use frame_outlines::FrameOutlinesError;
 pub use truss::TrussError;
-pub(crate) use truss::{check_same_bars, corresponding_nodes};
+pub(crate) use truss::{check_same_bars, conflicts_in, corresponding_nodes};

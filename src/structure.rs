@@ -16,6 +16,7 @@
 //! - `stability_proof`: proof that a recorded structure stands at every t
 //! - `sizing`: least areas of members; `truss_between`: a truss between designs, for a file
 //! - `tables`: all numbers at one t
+//! - `words`: numbers and lists of nodes in sentences
 //! - `sample`: results at one t; `shape_faults`, `findings`, `limits`: the concept check
 //! - `film`: analysis of a whole transition; `quantity`: its measures for graphs; `error`: errors and notes
 
@@ -38,6 +39,7 @@ mod solver;
 mod stability_proof;
 mod tables;
 mod truss_between;
+mod words;
 
 #[cfg(test)]
 mod tests;
@@ -46,7 +48,7 @@ pub use blend::{LoadSelection, StructuralBlend};
 pub use element::{MemberForces, MemberProperties};
 pub use error::{StructureError, StructureNote};
 pub use film::{FilmStructure, Soundness, TransitionStructure, has_structure};
-pub use findings::{NodeList, StructureFault, StructureFinding};
+pub use findings::{StructureFault, StructureFinding};
 pub use limits::StructureLimits;
 pub use quantity::StructureQuantity;
 pub use sample::{BarValue, StructureSample};
@@ -54,3 +56,4 @@ pub use sizing::{SizedMembers, SizingOptions};
 pub use solver::{NodeDisplacement, StructuralState, StructureSolver};
 pub use stability_proof::StabilityProof;
 pub use tables::{BarResults, NodeResults, StructureTables};
+pub use words::NodeList;

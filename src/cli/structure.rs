@@ -14,7 +14,7 @@ use crate::structure::{
     StructureTables, TransitionStructure,
 };
 use crate::transition::{Sequence, Transition};
-use crate::work::progress::{OverallProgress, ProgressSpan};
+use crate::work::progress::{OverallProgress, Progress, ProgressSpan};
 
 use super::error::CliError;
 use super::inputs::InputArgs;
@@ -23,12 +23,11 @@ use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
 
-/// Number of t at which the whole transition is analysed (heuristic: ten seconds at 24 frames per
-/// second, and one).
-const SAMPLES: usize = 241;
-
 /// Number of t that the table lists (heuristic).
 const ROWS: usize = 9;
+
+/// Progress reported once the transition is analysed, in [0, 1]; sizing takes the rest (heuristic).
+const ANALYSED_FRACTION: f64 = 0.7;
 
 #[derive(Debug, Args)]
 pub(super) struct StructureArgs {
@@ -208,11 +207,13 @@ impl StructureReport {
     fn of(
         title: String,
         transition: &Transition,
-        progress: &dyn crate::work::progress::Progress,
+        progress: &dyn Progress,
     ) -> Result<Self, CliError> {
+        let [analysing, sizing] = [(0.0, ANALYSED_FRACTION), (ANALYSED_FRACTION, 1.0)]
+            .map(|(from, to)| ProgressSpan::new(progress, from, to));
         let limits = StructureLimits::default();
         let start = Instant::now();
-        let film = FilmStructure::of(transition, SAMPLES, &limits, progress)
+        let film = FilmStructure::of(transition, FilmStructure::SAMPLES, &limits, &analysing)
             .map_err(CliError::failed)?
             .map_err(CliError::failed)?;
         let seconds = start.elapsed().as_secs_f64();
@@ -220,10 +221,13 @@ impl StructureReport {
         let options = SizingOptions::default();
         let sized = (0..ROWS).map(|row| {
             let t = row as f64 / (ROWS - 1) as f64;
-            let mass = structure.sized(t, &options).map(|sized| sized.mass);
-            SizedMass { t, mass }
+            let sized = structure
+                .sized(t, &options, &sizing)
+                .map_err(CliError::failed)?;
+            let mass = sized.map(|sized| sized.mass);
+            Ok(SizedMass { t, mass })
         });
-        let sized = sized.collect();
+        let sized = sized.collect::<Result<_, CliError>>()?;
         let blend = structure.blend();
         Ok(Self {
             title,
@@ -332,12 +336,16 @@ impl StructureReport {
     }
 }
 
+/// Returns a share as a whole percentage.
+fn percentage(share: f64) -> String {
+    format!("{} %", short((100.0 * share).round()))
+}
+
 /// Returns the cells of the measures at one t.
 fn measures(sample: &StructureSample, sized: Option<f64>) -> [String; 9] {
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), short);
-    let percent = |value: Option<f64>| {
-        value.map_or_else(|| "-".to_owned(), |value| format!("{:.0} %", 100.0 * value))
-    };
+    let percent =
+        |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| percentage(value));
     let deflects = sample.deflection > 0.0;
     [
         short(sample.mass),
@@ -368,7 +376,6 @@ fn bars_text(table: &StructureTables, lines: &mut NumberLines) {
             "slenderness",
         ],
     );
-    let percent = |value: f64| format!("{:.0} %", 100.0 * value);
     for bar in &table.bars {
         let name = format!("{} ({}-{})", bar.bar, bar.first_node, bar.second_node);
         let optional = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
@@ -380,9 +387,12 @@ fn bars_text(table: &StructureTables, lines: &mut NumberLines) {
                 short(1e-3 * bar.axial_n),
                 short(1e-3 * bar.moment_nm),
                 short(1e-6 * bar.stress_pa),
-                percent(bar.utilisation),
-                optional(bar.euler_utilisation.map(percent)),
-                optional(bar.slenderness.map(|s| format!("{s:.0}"))),
+                percentage(bar.utilisation),
+                optional(bar.euler_utilisation.map(percentage)),
+                optional(
+                    bar.slenderness
+                        .map(|slenderness| short(slenderness.round())),
+                ),
             ],
         );
     }

@@ -34,6 +34,7 @@ use crate::design::Truss;
 use crate::geometry::{DVec2, Side, SourceTarget, signed_area};
 use crate::mesh::undirected;
 use crate::work::progress::{Progress, check_cancelled, checkpoint};
+pub(crate) use bar_conflicts::conflicts_in;
 use blocks::PlanarBlocks;
 pub use error::TrussError;
 pub(super) use error::{MAX_PANEL_NODES, list_first};

@@ -264,11 +264,10 @@ impl StructuralBlend {
         loads: &mut LoadsAt,
     ) {
         for (&node, designs) in &case.nodes {
+            let (force, moment) = mean_load(designs, weights);
             let sum = &mut loads.nodes[node as usize];
-            for ((force, moment), weight) in designs.iter().zip(weights) {
-                sum.0 += factor * weight * *force;
-                sum.1 += factor * weight * moment;
-            }
+            sum.0 += factor * force;
+            sum.1 += factor * moment;
         }
         for chain in &case.chains {
             let total: DVec2 = chain.totals.iter().zip(weights).map(|(f, w)| *f * *w).sum();
@@ -353,12 +352,7 @@ impl StructuralBlend {
         places: &[DVec2],
     ) -> LoadCaseAt<'a> {
         let nodes = case.nodes.iter().map(|(&node, designs)| {
-            let loads = designs.iter().zip(weights);
-            let (mut force, mut moment) = (DVec2::ZERO, 0.0);
-            for (load, weight) in loads {
-                force += *weight * load.0;
-                moment += weight * load.1;
-            }
+            let (force, moment) = mean_load(designs, weights);
             (node, force, moment)
         });
         let chains = case.chains.iter().map(|chain| {
@@ -382,6 +376,14 @@ impl StructuralBlend {
 pub(super) fn mean_down(blend: &StructuralBlend, weights: &[f64]) -> DVec2 {
     let down: DVec2 = blend.down.iter().zip(weights).map(|(d, w)| *d * *w).sum();
     down.normalize_or_zero()
+}
+
+/// Returns the weighted mean of the forces and moments at a node in all designs.
+fn mean_load(designs: &[(DVec2, f64)], weights: &[f64]) -> (DVec2, f64) {
+    let add = |sum: (DVec2, f64), (load, weight): (&(DVec2, f64), &f64)| {
+        (sum.0 + *weight * load.0, sum.1 + weight * load.1)
+    };
+    designs.iter().zip(weights).fold((DVec2::ZERO, 0.0), add)
 }
 
 /// Returns the weighted sum of numbers.

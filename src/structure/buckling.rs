@@ -26,12 +26,22 @@ const RIGID_FROM: f64 = 1.0 - 1e-6;
 /// Largest load factor that is searched (numerical tolerance: beyond it, compression is rounding).
 const MAX_FACTOR: f64 = 1e9;
 
-/// Number of halvings of the bracket, whose ends differ by a factor of 2 at first (derived: the
-/// bracket is then so narrow that inverse iteration converges in a few steps).
-const HALVINGS: usize = 10;
+/// First step of the search for a bracket: the factor changes by less from one sample of a film to
+/// the next (heuristic).
+const FIRST_STEP: f64 = 1.05;
 
-/// Number of inverse iterations in the final bracket (derived: each adds three digits).
-const ITERATIONS: usize = 5;
+/// Ratio of the ends of a bracket from which inverse iteration converges quickly, unless two
+/// factors are as close to each other (heuristic).
+const NARROW: f64 = 1.01;
+
+/// Maximum number of halvings of a bracket (resource limit: enough for one of a factor of 10¹⁰).
+const HALVINGS: usize = 50;
+
+/// Maximum number of inverse iterations (resource limit: solving is much faster than factoring).
+const ITERATIONS: usize = 50;
+
+/// Relative change of the factor at which inverse iteration ends (numerical tolerance).
+const FACTOR_TOLERANCE: f64 = 1e-10;
 
 /// Number of unknowns that a member adds: rotations of both ends, and three for each inner point.
 const INNER_UNKNOWNS: usize = 2 + 3 * (PARTS - 1);
@@ -58,10 +68,10 @@ struct BucklingModel {
 
 impl StructureSolver {
     /// Returns α_cr, the factor on the loads of the last [`Self::solve`] at which the structure
-    /// buckles: infinite without compression, and 0 for a mechanism. Allocates; it takes some
-    /// milliseconds for 100 members.
+    /// buckles: infinite without compression, and 0 for a mechanism. The search begins at `guess`,
+    /// such as the factor at a t nearby. Allocates; it takes some milliseconds for 100 members.
     #[must_use]
-    pub fn critical_load_factor(&self) -> f64 {
+    pub fn critical_load_factor(&self, guess: Option<f64>) -> f64 {
         if self.state().is_mechanism {
             return 0.0;
         }
@@ -69,7 +79,7 @@ impl StructureSolver {
             return f64::INFINITY;
         };
         match BucklingModel::of(self) {
-            Some(mut model) => model.critical_factor(estimate),
+            Some(mut model) => model.critical_factor(guess.unwrap_or(estimate)),
             None => f64::INFINITY,
         }
     }
@@ -287,25 +297,14 @@ impl BucklingModel {
     }
 
     /// Returns the least positive α at which K + α K_G is not positive definite.
-    fn critical_factor(&mut self, estimate: f64) -> f64 {
-        let (mut stable, mut unstable) = (0.0, estimate);
-        while self.is_stable(unstable) {
-            (stable, unstable) = (unstable, 2.0 * unstable);
-            if unstable > MAX_FACTOR {
-                return f64::INFINITY;
-            }
-        }
-        while stable == 0.0 {
-            let half = 0.5 * unstable;
-            if half < estimate / MAX_FACTOR {
-                return 0.0;
-            }
-            match self.is_stable(half) {
-                true => stable = half,
-                false => unstable = half,
-            }
-        }
+    fn critical_factor(&mut self, guess: f64) -> f64 {
+        let Some([mut stable, mut unstable]) = self.bracket(guess) else {
+            return f64::INFINITY;
+        };
         for _ in 0..HALVINGS {
+            if unstable < NARROW * stable {
+                break;
+            }
             let middle = stable.midpoint(unstable);
             match self.is_stable(middle) {
                 true => stable = middle,
@@ -313,6 +312,33 @@ impl BucklingModel {
             }
         }
         self.refined(stable, unstable)
+    }
+
+    /// Returns a factor at which the structure is stable and a larger one at which it is not, found
+    /// from `guess` by steps that grow; `None` if the structure is stable up to the largest factor.
+    fn bracket(&mut self, guess: f64) -> Option<[f64; 2]> {
+        let mut step = FIRST_STEP;
+        let mut factor = guess;
+        let is_first_stable = self.is_stable(factor);
+        loop {
+            let last = factor;
+            factor = if is_first_stable {
+                factor * step
+            } else {
+                factor / step
+            };
+            if factor > MAX_FACTOR {
+                return None;
+            }
+            if factor < MAX_FACTOR.recip() {
+                return Some([0.0, last]);
+            }
+            match (is_first_stable, self.is_stable(factor)) {
+                (true, false) => return Some([last, factor]),
+                (false, true) => return Some([factor, last]),
+                _ => step *= step,
+            }
+        }
     }
 
     /// Refines a bracketed factor by inverse iteration.
@@ -331,7 +357,11 @@ impl BucklingModel {
             x.copy_from_slice(&image);
             self.pattern.back_substitute(&mut self.memory, &mut x);
             // The Rayleigh quotient of K + `stable` K_G, which needs no difference of large terms.
+            let last = factor;
             factor = stable + dot(&x, &image) / dot(&x, &self.destabilised(&x));
+            if (factor - last).abs() <= FACTOR_TOLERANCE * factor.abs() {
+                break;
+            }
             let norm = dot(&x, &x).sqrt();
             x.iter_mut().for_each(|entry| *entry /= norm);
         }

@@ -33,9 +33,26 @@ pub enum StructureError {
         /// Ratio of their axial stiffnesses.
         ratio: f64,
     },
+    /// A spring is so stiff in comparison with the bars that results would be inaccurate.
+    #[error("spring {spring} is too stiff for accurate results; use a support instead")]
+    StiffSpring {
+        /// Index of the spring.
+        spring: usize,
+    },
+    /// A load or the factor of a load case is too large. Holds the name of the load case.
+    #[error("a load{} is too large to compute with; correct the forces, the factor or the units", in_case(.0))]
+    LoadRange(String),
     /// The system of equations does not fit into memory.
     #[error("the structure is too large to analyse; use fewer bars")]
     TooLarge,
+}
+
+/// Returns the words that name a load case; none for loads outside of load cases.
+fn in_case(name: &str) -> String {
+    match name {
+        "" => String::new(),
+        name => format!(" of the load case {}", SanitizedLine(name)),
+    }
 }
 
 /// Number that a truss does not give, and the value that the analysis uses instead.

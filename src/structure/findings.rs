@@ -3,6 +3,7 @@
 
 use super::limits::StructureLimits;
 use super::sample::{BarValue, StructureSample};
+use super::words::{LengthInWords, NodeList, ShortNumber};
 use serde::Serialize;
 use std::fmt;
 
@@ -265,48 +266,6 @@ pub(super) fn merged(samples: &[(f64, Vec<StructureFault>)]) -> Vec<StructureFin
     findings
 }
 
-/// Number of nodes that a sentence lists (heuristic: more do not fit on a line).
-const LISTED_NODES: usize = 6;
-
-/// Displays node numbers in words: "node 3", or "nodes 3, 4 and 5". Long lists end with the number
-/// of further nodes.
-#[derive(Clone, Copy, Debug)]
-pub struct NodeList<'a>(pub &'a [u32]);
-
-impl fmt::Display for NodeList<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let noun = if self.0.len() == 1 { "node" } else { "nodes" };
-        write!(f, "{noun} ")?;
-        let listed = &self.0[..self.0.len().min(LISTED_NODES)];
-        let more = self.0.len() - listed.len();
-        for (i, node) in listed.iter().enumerate() {
-            let is_last = i + 1 == listed.len() && more == 0;
-            let before = match i {
-                0 => "",
-                _ if is_last => " and ",
-                _ => ", ",
-            };
-            write!(f, "{before}{node}")?;
-        }
-        match more {
-            0 => Ok(()),
-            more => write!(f, " and {more} more"),
-        }
-    }
-}
-
-/// Displays a length in m: in millimetres below one metre.
-struct LengthInWords(f64);
-
-impl fmt::Display for LengthInWords {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            metres if metres < 1.0 => write!(f, "{:.1} mm", 1e3 * metres),
-            metres => write!(f, "{metres:.2} m"),
-        }
-    }
-}
-
 impl fmt::Display for StructureFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let verb = |nodes: &[u32]| if nodes.len() == 1 { "moves" } else { "move" };
@@ -338,15 +297,15 @@ impl StructureFault {
             Self::OverStrength { bar, utilisation } => {
                 write!(
                     f,
-                    "bar {bar} is at {:.0} % of its strength",
-                    100.0 * utilisation
+                    "bar {bar} is at {} % of its strength",
+                    ShortNumber(100.0 * utilisation, 0)
                 )
             }
             Self::BarBuckles { bar, utilisation } => {
                 write!(
                     f,
-                    "bar {bar} buckles at {:.2} of the load",
-                    utilisation.recip()
+                    "bar {bar} buckles at {} of the load",
+                    ShortNumber(utilisation.recip(), 2)
                 )
             }
             Self::FrameBuckles { factor, limit } => {
@@ -374,7 +333,8 @@ impl StructureFault {
                 limit,
             } => write!(
                 f,
-                "bar {bar} has a slenderness of {slenderness:.0} (limit {limit})"
+                "bar {bar} has a slenderness of {} (limit {limit})",
+                ShortNumber(*slenderness, 0)
             ),
             fault => fault.write_shape(f),
         }

@@ -16,6 +16,10 @@ const DEFAULT_AREA: f64 = 4e-6;
 /// ratio, fewer than six digits of the displacements are correct).
 const MAX_STIFFNESS_RATIO: f64 = 1e9;
 
+/// Largest force in N, moment in N m or load factor (resource limit: squares of results stay numbers;
+/// the weight of a mountain is 1e15 N).
+const MAX_LOAD: f64 = 1e30;
+
 /// Structure of one design, in SI units and in the axes of the common frame.
 #[derive(Clone, Debug)]
 pub(super) struct StructuralModel {
@@ -116,6 +120,9 @@ impl StructuralModel {
         let mut notes = Notes::default();
         let members = members(truss, units, &mut notes)?;
         let cases = load_cases(parts, units, turn);
+        let springs = springs(parts, units, turn);
+        check_springs(&springs, &members)?;
+        check_loads(&cases)?;
         Ok(Self {
             node_count: parts.nodes.len(),
             bars: parts.bars.clone(),
@@ -128,7 +135,7 @@ impl StructuralModel {
                 })
                 .collect(),
             supports: supports(parts, turn),
-            springs: springs(parts, units, turn),
+            springs,
             cases,
             metres: units.metres() / placement.scale,
             down: turn * DVec2::NEG_Y,
@@ -257,6 +264,39 @@ fn check_stiffness(members: &[MemberProperties]) -> Result<(), StructureError> {
             })
         }
         _ => Ok(()),
+    }
+}
+
+/// Checks that no spring is so stiff that it should be a support.
+fn check_springs(
+    springs: &[ModelSpring],
+    members: &[MemberProperties],
+) -> Result<(), StructureError> {
+    let stiffest = members
+        .iter()
+        .map(|m| m.modulus * m.area)
+        .fold(0.0, f64::max);
+    let is_too_stiff = |spring: &ModelSpring| spring.stiffness > MAX_STIFFNESS_RATIO * stiffest;
+    match springs.iter().position(is_too_stiff) {
+        Some(spring) => Err(StructureError::StiffSpring { spring }),
+        None => Ok(()),
+    }
+}
+
+/// Checks that no load of a case is too large to compute with.
+fn check_loads(cases: &[ModelLoadCase]) -> Result<(), StructureError> {
+    let is_valid = |case: &&ModelLoadCase| {
+        let of_nodes = case
+            .nodes
+            .values()
+            .map(|(force, moment)| force.length() + moment.abs());
+        let of_chains = case.chains.iter().map(|chain| chain.total.length());
+        // Infinite and undefined sums are not within the limit either.
+        case.factor.abs() <= MAX_LOAD && of_nodes.chain(of_chains).all(|load| load <= MAX_LOAD)
+    };
+    match cases.iter().find(|case| !is_valid(case)) {
+        Some(case) => Err(StructureError::LoadRange(case.name.clone())),
+        None => Ok(()),
     }
 }
 

@@ -1,6 +1,5 @@
 //! Results of the analysis at one t, and what governs there.
 
-use super::blend::LoadSelection;
 use super::solver::{StructuralState, StructureSolver};
 use crate::geometry::DVec2;
 use serde::Serialize;
@@ -51,18 +50,12 @@ pub struct BarValue {
 }
 
 impl StructureSample {
-    /// Analyses a structure at `t`, with its nodes at `places` in units of the common frame.
+    /// Returns the measures of the last analysis of `solver`, which was that at `t`.
+    /// `last_factor` is the buckling factor at a t nearby, where the search begins.
     #[must_use]
-    pub fn at(
-        solver: &mut StructureSolver,
-        t: f64,
-        places: &[DVec2],
-        weights: &[f64],
-        selection: LoadSelection,
-    ) -> Self {
-        solver.solve(places, weights, selection);
+    pub fn of(solver: &StructureSolver, t: f64, last_factor: Option<f64>) -> Self {
         let critical = match solver.blend().is_frame() {
-            true => Some(solver.critical_load_factor()).filter(|factor| factor.is_finite()),
+            true => Some(solver.critical_load_factor(last_factor)).filter(|f| f.is_finite()),
             false => None,
         };
         let state = solver.state();

@@ -4,15 +4,13 @@
 use super::findings::StructureFault;
 use super::limits::StructureLimits;
 use super::solver::{StructuralState, StructureSolver};
-use crate::geometry::{DVec2, segments_cross};
+use crate::compatible::conflicts_in;
+use crate::geometry::DVec2;
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::BTreeSet;
 
-/// Maximum number of bars that are compared with each other (resource limit: comparing 2,000 bars
-/// takes 20 ms).
-const MAX_COMPARED_BARS: usize = 2_000;
-
 /// Pairs of bars that cross in a design.
-pub(super) type CrossingBars = BTreeSet<[usize; 2]>;
+pub(super) type CrossingBars = BTreeSet<[u32; 2]>;
 
 /// Finds the faults of the shape at the last analysis of `solver`. `designed_crossings` are the
 /// pairs of bars that cross in both designs.
@@ -20,7 +18,8 @@ pub(super) fn find(
     solver: &StructureSolver,
     limits: &StructureLimits,
     designed_crossings: &CrossingBars,
-) -> Vec<StructureFault> {
+    progress: &dyn Progress,
+) -> Result<Vec<StructureFault>, Cancelled> {
     let state = solver.state();
     let pieces = Pieces::of(solver);
     let mut faults = Vec::new();
@@ -37,10 +36,12 @@ pub(super) fn find(
     }
     faults.extend(sharpest_angle(solver, limits.least_angle_deg));
     faults.extend(shortest_stub(state));
-    let crossings = crossing_bars(solver);
-    let bars = crossings.difference(designed_crossings).next();
-    faults.extend(bars.map(|&bars| StructureFault::CrossesWithoutJoint { bars }));
-    faults
+    let crossings = crossing_bars(solver, progress)?;
+    let first = crossings.difference(designed_crossings).next();
+    faults.extend(first.map(|bars| StructureFault::CrossesWithoutJoint {
+        bars: bars.map(|bar| bar as usize),
+    }));
+    Ok(faults)
 }
 
 /// Connected pieces of a structure.
@@ -166,22 +167,16 @@ fn shortest_stub(state: &StructuralState) -> Option<StructureFault> {
     })
 }
 
-/// Returns the pairs of bars that cross between their ends. Structures with very many bars are not
-/// compared.
-pub(super) fn crossing_bars(solver: &StructureSolver) -> CrossingBars {
-    let bars = solver.blend().bars();
-    if bars.len() > MAX_COMPARED_BARS {
-        return CrossingBars::new();
-    }
-    let ends = |bar: usize| bars[bar].map(|node| solver.places()[node as usize]);
-    let shares_node = |a: usize, b: usize| bars[a].iter().any(|node| bars[b].contains(node));
-    let mut crossing = CrossingBars::new();
-    for a in 0..bars.len() {
-        for b in a + 1..bars.len() {
-            if !shares_node(a, b) && segments_cross(ends(a), ends(b)) {
-                crossing.insert([a, b]);
-            }
-        }
-    }
-    crossing
+/// Returns the pairs of bars that meet other than in a common node; none if they are so many that
+/// the search is given up.
+///
+/// # Errors
+/// [`Cancelled`] if the work is cancelled.
+pub(super) fn crossing_bars(
+    solver: &StructureSolver,
+    progress: &dyn Progress,
+) -> Result<CrossingBars, Cancelled> {
+    let found = conflicts_in(solver.blend().bars(), solver.places(), progress);
+    check_cancelled(progress)?;
+    Ok(found.unwrap_or_default().into_iter().collect())
 }

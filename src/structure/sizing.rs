@@ -11,14 +11,15 @@ use super::blend::LoadSelection;
 use super::element::MemberProperties;
 use super::solver::StructureSolver;
 use crate::geometry::DVec2;
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use serde::Serialize;
 use std::f64::consts::PI;
 
 /// Relative change of an area at which sizing ends (numerical tolerance).
-pub const TOLERANCE: f64 = 1e-6;
+pub const TOLERANCE: f64 = 1e-4;
 
 /// Maximum number of analyses (resource limit).
-const MAX_ROUNDS: usize = 1_000;
+const MAX_ROUNDS: usize = 200;
 
 /// Least areas of sized members.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +60,9 @@ impl StructureSolver {
     /// Sizes all members for the loads with the nodes at `places`, in units of the common frame.
     /// Afterwards [`Self::state`] is that of the sized structure. `None` for a mechanism.
     ///
+    /// # Errors
+    /// [`Cancelled`] if the work is cancelled.
+    ///
     /// # Panics
     /// As [`Self::solve`].
     pub fn size_members(
@@ -67,57 +71,63 @@ impl StructureSolver {
         weights: &[f64],
         selection: LoadSelection,
         options: &SizingOptions,
-    ) -> Option<SizedMembers> {
+        progress: &dyn Progress,
+    ) -> Result<Option<SizedMembers>, Cancelled> {
         let mut areas: Vec<f64> = Vec::new();
         for _ in 0..MAX_ROUNDS {
-            let state = self.solve_with_areas(&areas, places, weights, selection);
-            if state.is_mechanism {
-                return None;
-            }
-            let members = state.forces.iter().zip(&state.properties).enumerate();
-            let needed = members.map(|(bar, (forces, own))| {
-                let by_strength = own.area * state.utilisation(bar);
-                let compression = (-forces.axial).max(0.0);
-                let is_pinned = own.fixity == [0.0; 2];
-                match options.resists_buckling && is_pinned && own.radius > 0.0 {
-                    true => by_strength.max(area_against_buckling(own, forces.length, compression)),
-                    false => by_strength,
-                }
-            });
-            let needed: Vec<f64> = needed.collect();
-            let largest = needed.iter().copied().fold(0.0, f64::max);
-            let least = options.least_area.max(options.least_share * largest);
-            // A member without area could never get any.
-            let least = least.max(TOLERANCE * largest);
-            if least == 0.0 {
-                // Nothing is loaded.
-                return None;
-            }
-            let last = std::mem::replace(
-                &mut areas,
-                needed.into_iter().map(|area| area.max(least)).collect(),
-            );
-            let changes = areas
+            check_cancelled(progress)?;
+            self.solve_with_areas(&areas, places, weights, selection);
+            let Some(needed) = self.needed_areas(options) else {
+                return Ok(None);
+            };
+            let changes = needed
                 .iter()
-                .zip(&last)
+                .zip(&areas)
                 .map(|(new, old)| (new - old).abs() / new);
-            if !last.is_empty() && changes.fold(0.0, f64::max) <= TOLERANCE {
-                let state = self.solve_with_areas(&areas, places, weights, selection);
-                return Some(SizedMembers {
-                    mass: state.mass,
+            let is_converged = !areas.is_empty() && changes.fold(0.0, f64::max) <= TOLERANCE;
+            areas = needed;
+            if is_converged {
+                let mass = self
+                    .solve_with_areas(&areas, places, weights, selection)
+                    .mass;
+                return Ok(Some(SizedMembers {
                     areas,
-                    is_converged: true,
-                });
+                    mass,
+                    is_converged,
+                }));
             }
         }
         let mass = self
             .solve_with_areas(&areas, places, weights, selection)
             .mass;
-        Some(SizedMembers {
-            mass,
+        Ok(Some(SizedMembers {
             areas,
+            mass,
             is_converged: false,
-        })
+        }))
+    }
+
+    /// Returns the areas that carry the forces of the last analysis; `None` for a mechanism, or if
+    /// nothing is loaded.
+    fn needed_areas(&self, options: &SizingOptions) -> Option<Vec<f64>> {
+        let state = self.state();
+        let members = state.forces.iter().zip(&state.properties).enumerate();
+        let needed = members.map(|(bar, (forces, own))| {
+            let by_strength = own.area * state.utilisation(bar);
+            let compression = (-forces.axial).max(0.0);
+            let is_pinned = own.fixity == [0.0; 2];
+            match options.resists_buckling && is_pinned && own.radius > 0.0 {
+                true => by_strength.max(area_against_buckling(own, forces.length, compression)),
+                false => by_strength,
+            }
+        });
+        let needed: Vec<f64> = needed.collect();
+        let largest = needed.iter().copied().fold(0.0, f64::max);
+        // A member without area could never get any.
+        let least = options.least_share.max(TOLERANCE) * largest;
+        let least = least.max(options.least_area);
+        (least > 0.0 && !state.is_mechanism)
+            .then(|| needed.into_iter().map(|area| area.max(least)).collect())
     }
 }
 

@@ -207,23 +207,6 @@ impl StructureSolver {
         &self.axes
     }
 
-    /// Returns the springs between nodes and the ground: the node, the direction (`None` for a
-    /// rotation) and the stiffness in N/m or N m.
-    pub(super) fn springs_at(
-        &mut self,
-        places: &[DVec2],
-        weights: &[f64],
-    ) -> Vec<(u32, Option<DVec2>, f64)> {
-        self.place(places, weights);
-        self.restrain(weights);
-        let spring = |spring: &GroundSpring| {
-            let [x, y, rotation] = self.axes[spring.node as usize].global(spring.mode);
-            let along = (rotation == 0.0).then_some(DVec2::new(x, y));
-            (spring.node, along, spring.stiffness)
-        };
-        self.springs.iter().map(spring).collect()
-    }
-
     /// Analyses the structure with other areas of its members, in m². The shapes of the sections
     /// stay, so that radii of gyration and depths grow with the square root of the area. Without
     /// areas, those of the designs are used.

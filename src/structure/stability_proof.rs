@@ -16,6 +16,7 @@ use super::blend::{LoadSelection, StructuralBlend};
 use super::error::StructureError;
 use super::node_axes::NodeAxes;
 use super::pattern::NodeMatrix;
+use super::sample::StructureSample;
 use super::solver::StructureSolver;
 use crate::geometry::DVec2;
 use crate::recording::Recording;
@@ -53,6 +54,21 @@ impl StabilityProof {
     #[must_use]
     pub fn holds(&self) -> bool {
         self.fails_at.is_none()
+    }
+
+    /// Returns the same result, or, if the structure is only not proved to stand, the first sample
+    /// that is a mechanism.
+    pub(super) fn confirmed_by(self, samples: &[StructureSample]) -> Self {
+        let mechanism = samples.iter().find(|sample| !sample.stands());
+        match mechanism {
+            Some(sample) if !self.is_mechanism => Self {
+                fails_at: Some(sample.t),
+                moving_nodes: sample.moving_nodes.clone(),
+                is_mechanism: true,
+                ..self
+            },
+            _ => self,
+        }
     }
 
     /// Examines a structure whose nodes are the first vertices of a recording of a pair of designs.

@@ -1,6 +1,5 @@
 //! All numbers of an analysis at one t, by bar and by node.
 
-use super::blend::LoadSelection;
 use super::solver::StructureSolver;
 use crate::geometry::DVec2;
 use serde::Serialize;
@@ -76,16 +75,9 @@ pub struct NodeResults {
 }
 
 impl StructureTables {
-    /// Analyses a structure at `t`, with its nodes at `places` in units of the common frame.
+    /// Returns all numbers of the last analysis of `solver`, which was that at `t`.
     #[must_use]
-    pub fn at(
-        solver: &mut StructureSolver,
-        t: f64,
-        places: &[DVec2],
-        weights: &[f64],
-        selection: LoadSelection,
-    ) -> Self {
-        solver.solve(places, weights, selection);
+    pub fn of(solver: &StructureSolver, t: f64) -> Self {
         let state = solver.state();
         let bar = |(bar, &[first_node, second_node]): (usize, &[u32; 2])| {
             let forces = &state.forces[bar];

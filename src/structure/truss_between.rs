@@ -1,14 +1,13 @@
 //! The truss between several designs, as a truss of its own that can be written to a file.
 
 use super::blend::{StructuralBlend, mean_down};
-use super::error::StructureError;
+use super::node_axes::GroundSpring;
 use super::solver::StructureSolver;
 use crate::design::{
     GRAVITY, Truss, TrussForceUnit, TrussInputError, TrussLengthUnit, TrussLineLoad, TrussLoad,
     TrussLoadCase, TrussMaterial, TrussParts, TrussSection, TrussSpring, TrussSupport, TrussUnits,
 };
 use crate::geometry::DVec2;
-use std::sync::Arc;
 
 /// Units of a truss between designs: metres, newtons and pascals.
 const UNITS: TrussUnits = TrussUnits {
@@ -17,39 +16,48 @@ const UNITS: TrussUnits = TrussUnits {
     stress: None,
 };
 
-impl StructuralBlend {
-    /// Returns the truss with its nodes at `places`, in units of the common frame, and with the
-    /// given weights of the designs. An analysis of this truss gives the same results. Lengths are
-    /// in m, forces in N.
+impl StructureSolver {
+    /// Returns the truss of the last analysis, which was that with the given weights of the designs.
+    /// An analysis of this truss gives the same results. Lengths are in m, forces in N.
     ///
     /// # Errors
     /// [`TrussInputError`] if the places make no valid truss, for example because the two nodes of
     /// a bar coincide.
     ///
     /// # Panics
-    /// If there are fewer places than nodes, or fewer weights than designs.
-    pub fn truss_between(
-        self: &Arc<Self>,
-        places: &[DVec2],
-        weights: &[f64],
-    ) -> Result<Truss, TrussInputError> {
-        let metres = self.metres(weights);
-        let nodes: Vec<DVec2> = places[..self.node_count()]
-            .iter()
-            .map(|p| metres * *p)
-            .collect();
+    /// If there are fewer weights than designs.
+    pub fn truss_between(&self, weights: &[f64]) -> Result<Truss, TrussInputError> {
+        let blend = self.blend();
         let mut parts = TrussParts {
             units: Some(UNITS),
-            bars: self.bars().to_vec(),
+            nodes: self.places().to_vec(),
+            bars: blend.bars().to_vec(),
+            springs: self.springs_between(),
             ..TrussParts::default()
         };
-        self.write_members(weights, &mut parts);
-        self.write_supports(places, weights, &mut parts);
-        self.write_cases(&nodes, weights, &mut parts);
-        parts.nodes = nodes;
+        blend.write_members(weights, &mut parts);
+        blend.write_supports(weights, &mut parts);
+        blend.write_cases(self.places(), weights, &mut parts);
         Truss::from_parts(parts)
     }
 
+    /// Returns the springs of the last analysis, among them those of supports that not all designs
+    /// have.
+    fn springs_between(&self) -> Vec<TrussSpring> {
+        let spring = |spring: &GroundSpring| {
+            let axes = &self.axes()[spring.node as usize];
+            let [x, y, rotation] = axes.global(spring.mode);
+            TrussSpring {
+                node: spring.node,
+                along: (rotation == 0.0).then_some(DVec2::new(x, y)),
+                stiffness: spring.stiffness,
+            }
+        };
+        self.springs().iter().map(spring).collect()
+    }
+}
+
+impl StructuralBlend {
     /// Writes areas, sections, materials and fixities. Equal sections and materials are written
     /// once.
     fn write_members(&self, weights: &[f64], parts: &mut TrussParts) {
@@ -84,8 +92,8 @@ impl StructuralBlend {
         }
     }
 
-    /// Writes rigid supports, and springs for supports that not all designs have.
-    fn write_supports(self: &Arc<Self>, places: &[DVec2], weights: &[f64], parts: &mut TrussParts) {
+    /// Writes rigid supports.
+    fn write_supports(&self, weights: &[f64], parts: &mut TrussParts) {
         for restraint in self.restraints.iter().map(|all| all.at(weights)) {
             if !restraint.is_rigid() {
                 continue;
@@ -114,18 +122,6 @@ impl StructuralBlend {
                 None => parts.supports.push(support),
             }
         }
-        let solver = StructureSolver::new(Arc::clone(self));
-        // A structure that cannot be solved has been refused before.
-        let Ok::<_, StructureError>(mut solver) = solver else {
-            return;
-        };
-        parts.springs = (solver.springs_at(places, weights).into_iter())
-            .map(|(node, along, stiffness)| TrussSpring {
-                node,
-                along,
-                stiffness,
-            })
-            .collect();
     }
 
     /// Writes the loads of all load cases.

@@ -22,10 +22,6 @@ use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan};
 /// defects and take longer (heuristic).
 pub const FILM_SAMPLES: usize = 65;
 
-/// Number of values of t at which a structure is analysed for its graphs (heuristic: ten seconds at
-/// 24 frames per second, and one).
-const STRUCTURE_SAMPLES: usize = 241;
-
 /// Time after which a running measurement is shown as work in progress and can be cancelled with
 /// Esc. A measurement that takes less time ends before the user could react to it (heuristic).
 const SHOWN_AFTER: Duration = Duration::from_millis(1000);
@@ -156,7 +152,7 @@ pub fn measure_film(
             let limits = StructureLimits::default();
             Some(FilmStructure::of(
                 transition,
-                STRUCTURE_SAMPLES,
+                FilmStructure::SAMPLES,
                 &limits,
                 &analysing,
             )?)

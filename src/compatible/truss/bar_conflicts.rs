@@ -8,7 +8,7 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
 /// Indices of two bars that cannot both be edges of the triangulation, the smaller first. Stored as
 /// `u32` to save memory: every bar may conflict with every other.
-pub(super) type BarConflict = [u32; 2];
+pub(crate) type BarConflict = [u32; 2];
 
 /// Returns the pairs of bars that cross, touch or overlap in at least one of the designs, other
 /// than by ending at a common node. Sorted, without duplicates.
@@ -26,7 +26,7 @@ pub(super) fn find_conflicts(
 
 /// Returns the conflicts in one design by a sweep along x. The bars are sorted by their left ends;
 /// each bar is compared with the later ones that start before it ends.
-fn conflicts_in(
+pub(crate) fn conflicts_in(
     bars: &[[u32; 2]],
     nodes: &[DVec2],
     progress: &dyn Progress,

@@ -9,7 +9,7 @@ use crate::structure::{
     StructureFault, StructureLimits, StructureSolver,
 };
 use crate::transition::{Transition, TransitionSpec};
-use crate::work::progress::Silent;
+use crate::work::progress::{Progress, Silent};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -42,8 +42,8 @@ fn sized_bars_just_carry_their_forces() {
     let truss = truss(&bracket([4.0, 0.0], [1e-3, 1e-3], 100.0));
     let mut solver = solver(&[&truss]);
     let options = SizingOptions::default();
-    let sized = solver.size_members(truss.nodes(), &[1.0], LoadSelection::All, &options);
-    let sized = sized.expect("it stands");
+    let sized = solver.size_members(truss.nodes(), &[1.0], LoadSelection::All, &options, &Silent);
+    let sized = sized.expect("not cancelled").expect("it stands");
     assert!(sized.is_converged);
     // The tie carries 5/3 of the load, the strut 4/3 in compression, where buckling governs.
     assert_close(sized.areas[1], 100e3 * 5.0 / 3.0 / 235e6, 1e-6);
@@ -62,9 +62,10 @@ fn a_sized_truss_needs_areas_that_the_given_ones_do_not_influence() {
     let sized = [[1e-3, 1e-3], [1e-2, 1e-5]].map(|areas| {
         let truss = truss(&bracket([4.0, 0.0], areas, 100.0));
         let options = SizingOptions::default();
-        let sized =
-            solver(&[&truss]).size_members(truss.nodes(), &[1.0], LoadSelection::All, &options);
-        sized.expect("it stands").areas
+        let mut solver = solver(&[&truss]);
+        let loads = LoadSelection::All;
+        let sized = solver.size_members(truss.nodes(), &[1.0], loads, &options, &Silent);
+        sized.expect("not cancelled").expect("it stands").areas
     });
     for (a, b) in sized[0].iter().zip(&sized[1]) {
         assert_close(*a, *b, 1e-5);
@@ -164,6 +165,59 @@ fn every_kind_of_fault_of_a_standing_structure_is_found() {
 }
 
 #[test]
+fn numbers_that_cannot_be_computed_with_are_refused() {
+    let error = |key: &str, value: Value| {
+        let mut file = bracket([4.0, 0.0], [5e-3, 5e-3], 1.0);
+        file[key] = value;
+        StructuralBlend::of(&[&truss(&file)])
+            .expect_err(key)
+            .to_string()
+    };
+    let infinite = json!([{"node": 2, "force": [0, 1e308]}, {"node": 2, "force": [0, 1e308]}]);
+    assert!(error("loads", infinite).starts_with("a load is too large to compute with"));
+    let case = json!([{"name": "storm", "factor": 1e40, "self_weight": true}]);
+    assert!(error("load_cases", case).starts_with("a load of the load case storm is too large"));
+    let spring = json!([{"node": 2, "along": [0, 1], "stiffness": 1e300}]);
+    assert!(error("springs", spring).starts_with("spring 0 is too stiff"));
+}
+
+#[test]
+fn a_mechanism_at_a_design_is_reported_there() {
+    let held = bracket([4.0, 0.0], [5e-3, 5e-3], 1.0);
+    let mut loose = held.clone();
+    loose["supports"] = json!([]);
+    let film = film([&held, &loose]);
+    let proof = film.proof.expect("a proof");
+    // Without the supports nothing is proved, but the structure falls over only at t = 1.
+    assert!(proof.is_mechanism);
+    assert_eq!(proof.fails_at, Some(1.0));
+}
+
+/// Progress of work that was cancelled before it began.
+struct CancelledSizing;
+
+impl Progress for CancelledSizing {
+    fn report(&self, _: &'static str, _: f64) {}
+
+    fn is_cancelled(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn cancelled_sizing_ends() {
+    let truss = truss(&bracket([4.0, 0.0], [1e-3, 1e-3], 100.0));
+    let cancelled = solver(&[&truss]).size_members(
+        truss.nodes(),
+        &[1.0],
+        LoadSelection::All,
+        &SizingOptions::default(),
+        &CancelledSizing,
+    );
+    assert!(cancelled.is_err());
+}
+
+#[test]
 fn outlines_have_no_structure() {
     let spec = gallery::load("triangle-polar")
         .expect("a project")
@@ -232,7 +286,7 @@ fn a_truss_between_designs_has_the_same_results_when_it_is_read_again() {
         let places: Vec<DVec2> = nodes.map(|(a, b)| a.lerp(*b, t)).collect();
         let expected = solver.solve(&places, &weights, LoadSelection::All).clone();
         assert!(!expected.is_mechanism);
-        let between = blend.truss_between(&places, &weights).expect("a truss");
+        let between = solver.truss_between(&weights).expect("a truss");
         let again = analysed(&Truss::from_json(&between.to_json()).expect("a valid file"));
         for (a, b) in again.forces.iter().zip(&expected.forces) {
             assert_close(a.axial, b.axial, 1e-8);
