@@ -110,6 +110,17 @@ pub(super) struct Element {
 pub(super) type LocalLoad = [f64; 2];
 
 impl Element {
+    /// Element between two nodes at the same place, which resists nothing. Its length is the
+    /// smallest positive number, so that it can divide.
+    const WITHOUT_LENGTH: Self = Self {
+        length: f64::MIN_POSITIVE,
+        direction: DVec2::X,
+        modes: [[0.0; 6]; 3],
+        axial: 0.0,
+        bending: [0.0; 3],
+        fixity: [0.0; 2],
+    };
+
     /// Creates the element from `from` to `to`. `axes` holds, for each end, the direction in which
     /// the first displacement of its node is measured.
     pub(super) fn new(
@@ -118,6 +129,9 @@ impl Element {
         axes: [DVec2; 2],
     ) -> Self {
         let length = from.distance(to);
+        if length == 0.0 {
+            return Self::WITHOUT_LENGTH;
+        }
         let direction = (to - from) / length;
         let across = direction.perp() / length;
         let [r1, r2] = properties.fixity;
@@ -159,7 +173,12 @@ impl Element {
         let [k11, k12, k22] = self.bending;
         let translation = 2.0 * (k11 + 2.0 * k12 + k22) / self.length.powi(2) / (0.5 * mass);
         let rotation = (k11 + k22) / (mass * rotary_inertia(self.length));
-        (4.0 * self.axial / mass).max(translation + rotation)
+        let bending = if k11 + k22 > 0.0 {
+            translation + rotation
+        } else {
+            0.0
+        };
+        (4.0 * self.axial / mass).max(bending)
     }
 
     /// Returns the moments at both ends with which rigid supports at the nodes would balance a

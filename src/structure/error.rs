@@ -1,6 +1,7 @@
 //! Errors and notes of the structural analysis.
 
 use crate::io::sanitize::SanitizedLine;
+use crate::work::progress::Cancelled;
 use std::fmt;
 
 /// Reason why a structure cannot be analysed. Bars are counted from 0, as in the file.
@@ -42,6 +43,9 @@ pub enum StructureError {
     /// A load or the factor of a load case is too large. Holds the name of the load case.
     #[error("a load{} is too large to compute with; correct the forces, the factor or the units", in_case(.0))]
     LoadRange(String),
+    /// The work was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The system of equations does not fit into memory.
     #[error("the structure is too large to analyse; use fewer bars")]
     TooLarge,

@@ -3,7 +3,7 @@
 
 use super::limits::StructureLimits;
 use super::sample::{BarValue, StructureSample};
-use super::words::{LengthInWords, NodeList, ShortNumber};
+use super::words::{BoundedNumber, LengthInWords, NodeList};
 use serde::Serialize;
 use std::fmt;
 
@@ -298,14 +298,14 @@ impl StructureFault {
                 write!(
                     f,
                     "bar {bar} is at {} % of its strength",
-                    ShortNumber(100.0 * utilisation, 0)
+                    BoundedNumber(100.0 * utilisation, 0)
                 )
             }
             Self::BarBuckles { bar, utilisation } => {
                 write!(
                     f,
                     "bar {bar} buckles at {} of the load",
-                    ShortNumber(utilisation.recip(), 2)
+                    BoundedNumber(utilisation.recip(), 2)
                 )
             }
             Self::FrameBuckles { factor, limit } => {
@@ -334,7 +334,7 @@ impl StructureFault {
             } => write!(
                 f,
                 "bar {bar} has a slenderness of {} (limit {limit})",
-                ShortNumber(*slenderness, 0)
+                BoundedNumber(*slenderness, 0)
             ),
             fault => fault.write_shape(f),
         }

@@ -10,8 +10,10 @@ use serde::Serialize;
 pub struct StructureSample {
     /// Blend parameter.
     pub t: f64,
-    /// Nodes that nothing holds; empty if the structure stands. If it does not, all other results
-    /// are zero or `None`.
+    /// Whether the structure is a mechanism. If so, all results apart from the mass and the moving
+    /// nodes are zero or `None`.
+    pub is_mechanism: bool,
+    /// Nodes that nothing holds in a mechanism; empty if the structure stands.
     pub moving_nodes: Vec<u32>,
     /// Mass of all bars in kg.
     pub mass: f64,
@@ -61,6 +63,7 @@ impl StructureSample {
         let state = solver.state();
         let mut sample = Self {
             t,
+            is_mechanism: state.is_mechanism,
             moving_nodes: Vec::new(),
             mass: state.mass,
             deflection: 0.0,
@@ -102,21 +105,7 @@ impl StructureSample {
     /// Returns whether the structure stands.
     #[must_use]
     pub fn stands(&self) -> bool {
-        self.moving_nodes.is_empty()
-    }
-
-    /// Returns the factor by which all loads can grow until a bar reaches its strength or buckles,
-    /// or the frame buckles; `None` without forces.
-    #[must_use]
-    pub fn load_factor(&self) -> Option<f64> {
-        let inverse = |value: Option<BarValue>| value.map(|v| v.value.recip());
-        let factors = [
-            inverse(self.strength),
-            inverse(self.euler),
-            self.critical_load_factor,
-        ];
-        let finite = factors.into_iter().flatten().filter(|f| f.is_finite());
-        finite.reduce(f64::min)
+        !self.is_mechanism
     }
 }
 

@@ -74,17 +74,13 @@ impl StabilityProof {
     /// Examines a structure whose nodes are the first vertices of a recording of a pair of designs.
     ///
     /// # Errors
-    /// The outer error is [`Cancelled`] if the work is cancelled, the inner one
-    /// [`StructureError::TooLarge`] if the system does not fit into memory.
+    /// [`StructureError`] if the system does not fit into memory, or if the work is cancelled.
     pub fn of(
         blend: &Arc<StructuralBlend>,
         recording: &Recording,
         progress: &dyn Progress,
-    ) -> Result<Result<Self, StructureError>, Cancelled> {
-        let mut prover = match Prover::new(blend) {
-            Ok(prover) => prover,
-            Err(error) => return Ok(Err(error)),
-        };
+    ) -> Result<Self, StructureError> {
+        let mut prover = Prover::new(blend)?;
         let mut fails_at = None;
         for interval in recording.motion_intervals(blend.node_count()) {
             checkpoint(progress, "proving", interval.times[0])?;
@@ -101,10 +97,7 @@ impl StabilityProof {
             factorisations: prover.factorisations,
         };
         if let Some(t) = fails_at {
-            let mut solver = match StructureSolver::new(Arc::clone(blend)) {
-                Ok(solver) => solver,
-                Err(error) => return Ok(Err(error)),
-            };
+            let mut solver = StructureSolver::new(Arc::clone(blend))?;
             let mut places = vec![DVec2::ZERO; blend.node_count()];
             recording.write_places(t, &mut places);
             let weights = StructuralBlend::pair_weights(t);
@@ -112,7 +105,7 @@ impl StabilityProof {
             proof.moving_nodes = state.moving_nodes();
             proof.is_mechanism = state.is_mechanism;
         }
-        Ok(Ok(proof))
+        Ok(proof)
     }
 }
 

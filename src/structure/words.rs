@@ -34,9 +34,9 @@ impl fmt::Display for NodeList<'_> {
 
 /// Displays a number with the given number of decimals, or with an exponent if it is too large or too
 /// small for them.
-pub(super) struct ShortNumber(pub(super) f64, pub(super) usize);
+pub(super) struct BoundedNumber(pub(super) f64, pub(super) usize);
 
-impl fmt::Display for ShortNumber {
+impl fmt::Display for BoundedNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(number, decimals) = *self;
         let smallest = 0.5 * 0.1_f64.powi(decimals as i32);
@@ -53,8 +53,8 @@ pub(super) struct LengthInWords(pub(super) f64);
 impl fmt::Display for LengthInWords {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
-            metres if metres < 1.0 => write!(f, "{} mm", ShortNumber(1e3 * metres, 1)),
-            metres => write!(f, "{} m", ShortNumber(metres, 2)),
+            metres if metres < 1.0 => write!(f, "{} mm", BoundedNumber(1e3 * metres, 1)),
+            metres => write!(f, "{} m", BoundedNumber(metres, 2)),
         }
     }
 }

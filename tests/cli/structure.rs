@@ -195,6 +195,11 @@ fn each_broken_truss_gets_a_sentence() {
             1,
             "line load 0 refers to bar 9",
         ),
+        (
+            broken("loads", json!([{"node": 2, "force": [0, 1e300]}])),
+            1,
+            "a load is too large to compute with",
+        ),
         (broken("areas", json!("NaN")), 1, "invalid type"),
     ] {
         cli.write("broken.json", &text);

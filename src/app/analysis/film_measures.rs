@@ -147,18 +147,13 @@ pub fn measure_film(
     .map(|(from, to)| ProgressSpan::new(progress, from, to));
     let film = film_report(transition, FILM_SAMPLES, &sampling)?;
     let verdict = Verdict::of_film(transition, &film, &checking)?;
-    let structure = match has_structure(transition) {
-        true => {
-            let limits = StructureLimits::default();
-            Some(FilmStructure::of(
-                transition,
-                FilmStructure::SAMPLES,
-                &limits,
-                &analysing,
-            )?)
-        }
-        false => None,
-    };
+    let structure = has_structure(transition).then(|| {
+        let limits = StructureLimits::default();
+        FilmStructure::of(transition, FilmStructure::SAMPLES, &limits, &analysing)
+    });
+    if let Some(Err(StructureError::Cancelled(cancelled))) = structure {
+        return Err(cancelled);
+    }
     Ok(FilmMeasures {
         film,
         verdict,

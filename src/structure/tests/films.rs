@@ -23,7 +23,7 @@ fn film(files: [&Value; 2]) -> FilmStructure {
     let spec = TransitionSpec::new(source, target);
     let transition = Transition::build(&spec, &Silent).expect("a transition");
     let film = FilmStructure::of(&transition, 25, &StructureLimits::default(), &Silent);
-    film.expect("not cancelled").expect("a structure")
+    film.expect("a structure")
 }
 
 /// A bracket of two bars that carries a load at its tip.
@@ -225,7 +225,7 @@ fn outlines_have_no_structure() {
         .expect("a pair");
     let transition = Transition::build(&spec, &Silent).expect("a transition");
     let film = FilmStructure::of(&transition, 3, &StructureLimits::default(), &Silent);
-    let error = film.expect("not cancelled").expect_err("no truss");
+    let error = film.expect_err("no truss");
     assert!(matches!(error, StructureError::NoTruss(_)), "{error}");
     assert!(
         error

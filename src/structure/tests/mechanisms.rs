@@ -1,8 +1,10 @@
 //! Mechanisms, whose moving nodes must be found, and structures that are nearly mechanisms.
 
 use super::{analysed, truss};
-use crate::structure::StructuralState;
+use crate::geometry::DVec2;
+use crate::structure::{LoadSelection, StructuralBlend, StructuralState, StructureSolver};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// Returns a structure of steel bars of 10 cm² with a load at the last node. `supports` lists nodes
 /// with the fixed displacements: a text of "x", "y" and "r".
@@ -336,4 +338,31 @@ fn structures_near_a_mechanism_are_not_called_one() {
             1e-7,
         );
     }
+}
+
+#[test]
+fn a_bar_without_length_carries_nothing() {
+    let bracket = |tip: [f64; 2]| {
+        truss(&structure(
+            &[[0.0, 0.0], [0.0, 3.0], tip],
+            &TRIANGLE_BARS,
+            &PINS,
+        ))
+    };
+    let trusses = [bracket([4.0, 1.0]), bracket([-4.0, -1.0])];
+    let blend = StructuralBlend::of(&[&trusses[0], &trusses[1]]).expect("a blend");
+    let mut solver = StructureSolver::new(Arc::new(blend)).expect("a solver");
+    // Half way on straight lines, node 2 lies on node 0.
+    let places = [DVec2::ZERO, DVec2::new(0.0, 3.0), DVec2::ZERO];
+    let state = solver.solve(&places, &[0.5, 0.5], LoadSelection::All);
+    assert!(state.is_mechanism);
+    assert_eq!(state.moving_nodes(), [2]);
+    assert!(state.mass.is_finite());
+    assert!(
+        state
+            .reactions
+            .iter()
+            .flatten()
+            .all(|reaction| *reaction == 0.0)
+    );
 }

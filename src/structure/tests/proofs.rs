@@ -15,7 +15,7 @@ fn proof(transition: &Transition) -> StabilityProof {
     let recording = transition.record(&RecordingOptions::default(), &Silent);
     let recording = recording.expect("a recording");
     let proof = StabilityProof::of(&blend, &recording, &Silent);
-    proof.expect("not cancelled").expect("small enough")
+    proof.expect("small enough")
 }
 
 fn between(files: [&Value; 2]) -> Transition {
