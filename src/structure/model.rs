@@ -227,10 +227,9 @@ fn material(
     let grade = given.and_then(|given| MaterialGrade::named(&given.name));
     let standard = grade.unwrap_or(MaterialGrade::DEFAULT);
     let pascals = units.pascals();
-    let number = |own: Option<f64>| given.and(own);
-    let modulus = number(given.and_then(|m| m.youngs_modulus)).map(|e| e * pascals);
-    let strength = number(given.and_then(|m| m.strength)).map(|f| f * pascals);
-    let density = number(given.and_then(|m| m.density)).map(|d| d * units.density());
+    let modulus = given.and_then(|m| m.youngs_modulus).map(|e| e * pascals);
+    let strength = given.and_then(|m| m.strength).map(|f| f * pascals);
+    let density = given.and_then(|m| m.density).map(|d| d * units.density());
     if grade.is_none() && [modulus, strength, density].contains(&None) {
         notes.add(StructureNote::AssumedGrade {
             material: given.map_or_else(String::new, |given| given.name.clone()),

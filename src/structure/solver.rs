@@ -259,7 +259,8 @@ impl StructureSolver {
         );
         self.load();
         let eigenvalue = self.first_mode(largest);
-        self.state.is_mechanism = eigenvalue < MECHANISM_RATIO * largest;
+        // Both are zero if no member has an area.
+        self.state.is_mechanism = eigenvalue <= MECHANISM_RATIO * largest;
         self.state.frequency = match self.state.is_mechanism {
             true => 0.0,
             false => eigenvalue.sqrt() / TAU,
@@ -428,6 +429,7 @@ impl StructureSolver {
                 let shift = MECHANISM_RATIO * largest;
                 if !self.factor(shift) {
                     // Not a single member resists anything.
+                    self.start();
                     self.write_mode();
                     return 0.0;
                 }
@@ -447,17 +449,21 @@ impl StructureSolver {
         eigenvalue.max(0.0)
     }
 
-    /// Iterates x ← K⁻¹ M x with the factors in the memory. Returns the Rayleigh quotient.
-    fn iterate(&mut self) -> f64 {
-        let unknowns = self.unknowns.len();
-        for unknown in 0..unknowns {
-            // Deterministic numbers without a pattern, so that no mode is missed.
+    /// Sets the free unknowns to numbers without a pattern, so that iterations from there miss no
+    /// mode. The numbers are always the same.
+    fn start(&mut self) {
+        for unknown in 0..self.unknowns.len() {
             let golden = 0.618_033_988_749_894_9 * (unknown + 1) as f64;
             self.unknowns[unknown] = match self.is_fixed(unknown) {
                 true => 0.0,
                 false => 0.5 + golden.fract(),
             };
         }
+    }
+
+    /// Iterates x ← K⁻¹ M x with the factors in the memory. Returns the Rayleigh quotient.
+    fn iterate(&mut self) -> f64 {
+        self.start();
         let mut eigenvalue = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             for ((image, x), mass) in (self.image.iter_mut().zip(&self.unknowns)).zip(&self.masses)

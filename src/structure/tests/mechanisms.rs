@@ -176,6 +176,11 @@ fn mechanisms() -> Vec<(&'static str, Value, Vec<u32>)> {
             vec![3],
         ),
         (
+            "bars without any area",
+            with(triangle(&SIMPLE), "areas", json!([0.0, 0.0, 0.0])),
+            vec![1, 2],
+        ),
+        (
             "a dangling bar",
             structure(&with_tip, &tip[..4], &SIMPLE),
             vec![3],
