@@ -355,8 +355,7 @@ fn percentage(share: f64) -> String {
 /// Returns the cells of the measures at one t.
 fn measures(sample: &StructureSample, sized: Option<f64>) -> [String; 9] {
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), short);
-    let percent =
-        |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| percentage(value));
+    let percent = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), percentage);
     let deflects = sample.deflection > 0.0;
     [
         short(sample.mass),
